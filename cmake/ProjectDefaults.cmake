@@ -1,0 +1,34 @@
+# Language level, warnings and sanitizers for our own targets; dependencies never see them.
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
+
+add_library(nacre_defaults INTERFACE)
+target_compile_features(nacre_defaults INTERFACE cxx_std_20)
+target_compile_options(nacre_defaults INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wold-style-cast
+  -ffp-contract=off  # same floating-point results with and without FMA hardware
+  $<$<BOOL:${NACRE_WERROR}>:-Werror>)
+if(NACRE_SANITIZE)
+  target_compile_options(nacre_defaults INTERFACE
+    -fsanitize=${NACRE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_options(nacre_defaults INTERFACE -fsanitize=${NACRE_SANITIZE})
+endif()
+
+# nacre_library(<name> SOURCES ... HEADERS ... [LINK ...] [LINK_PRIVATE ...])
+#
+# One module target: nacre::<name>, headers included as "<folder>/<file>.h" from the root.
+function(nacre_library name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;HEADERS;LINK;LINK_PRIVATE")
+  add_library(nacre_${name} STATIC ${arg_SOURCES})
+  add_library(nacre::${name} ALIAS nacre_${name})
+  set_target_properties(nacre_${name} PROPERTIES EXPORT_NAME ${name})
+  target_sources(nacre_${name} PUBLIC
+    FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${arg_HEADERS})
+  target_compile_features(nacre_${name} PUBLIC cxx_std_20)
+  target_link_libraries(nacre_${name}
+    PUBLIC ${arg_LINK}
+    PRIVATE ${arg_LINK_PRIVATE} $<BUILD_INTERFACE:nacre_defaults>)
+  install(TARGETS nacre_${name} EXPORT nacre_targets
+    FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/nacre)
+endfunction()

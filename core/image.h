@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace nacre {
+
+/// A one-channel float picture: emission (max), emission * mm (sum), or a count.
+///
+/// Pixel (x, y) is element `x + width * y`, row 0 at the top.
+struct Image {
+  int width = 0;
+  int height = 0;
+  std::vector<float> pixels;  ///< width * height
+
+  float& at(int x, int y) { return pixels[index(x, y)]; }
+  float at(int x, int y) const { return pixels[index(x, y)]; }
+
+ private:
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(x) +
+           static_cast<std::size_t>(width) * static_cast<std::size_t>(y);
+  }
+};
+
+/// An all-zero picture of that size.
+Image make_image(int width, int height);
+
+/// A picture for the eye: one (gray) or three (RGB, interleaved) channels of 0 to 65535.
+struct DisplayImage {
+  int width = 0;
+  int height = 0;
+  int channels = 1;                   ///< 1 or 3
+  std::vector<std::uint16_t> pixels;  ///< width * height * channels
+};
+
+}  // namespace nacre

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/emission.h"
+#include "core/triangle_mesh.h"
+#include "core/volume.h"
+#include "core/volume_geometry.h"
+
+namespace nacre {
+
+/// One emission shell: the boundary of { value >= `value` }, closed, counter-clockwise seen from
+/// outside.
+struct Shell {
+  double emission = 0.0;        ///< level t_k, in (0, 1]
+  double value = 0.0;           ///< contour value v_k, in the volume's values
+  double representative = 0.0;  ///< r_k, the emission shown for the layer above this shell
+  TriangleMesh surface;         ///< LPS mm relative to `ShellSet::center_mm`; empty if unreached
+};
+
+/// The lattice all positions of a set lie on: origin + step * (i, j, k), 0 <= i, j, k < 2^bits.
+struct QuantizationGrid {
+  glm::dvec3 origin_mm{0.0};  ///< relative to `ShellSet::center_mm`
+  double range_mm = 0.0;      ///< (2^bits - 1) * step
+  int bits = 0;               ///< 1 to 30
+};
+
+/// What the shells were made from: enough to place them and to recognise the volume, nothing that
+/// names a file or a patient.
+struct VolumeFacts {
+  glm::i64vec3 dims{1};
+  glm::dmat4 world_from_voxel{1.0};
+  ScalarType type = ScalarType::U8;
+  double slope = 1.0;
+  double intercept = 0.0;
+  std::uint64_t checksum = 0;  ///< of the stored samples
+};
+
+/// A nest of emission shells of one volume, outermost (lowest level) first.
+struct ShellSet {
+  std::vector<Shell> shells;  ///< levels strictly ascending
+  glm::dvec3 center_mm{0.0};  ///< LPS; positions are relative to it, floats fail far from 0
+  VolumeFacts volume;
+  std::vector<EmissionKnot> emission;    ///< the emission map's knots: the window has two
+  std::string placement = "uniform";     ///< "uniform", "optimal" or "explicit"
+  double tolerance = 0.0;                ///< allowed emission error of the surfaces; 0 = none made
+  std::optional<QuantizationGrid> grid;  ///< none before snapping
+};
+
+}  // namespace nacre

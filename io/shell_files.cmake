@@ -1,0 +1,1 @@
+# nacre::io_shell_files

@@ -1,0 +1,1 @@
+# Tests of nacre::io_shell_files.
