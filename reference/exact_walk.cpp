@@ -131,15 +131,15 @@ class ExactWalk::TypedWalker final : public ExactWalk::Walker {
   double max_field(const CellLine& line, const LineInterval& interval, double floor,
                    double ceiling) const override {
     double best = floor;
-    auto on_brick = [&](std::size_t brick, double) { return bricks.greatest[brick] > best; };
-    auto on_cell = [&](const CellPassage& passage) {
-      const CellCorners corners = corners_of(passage.cell);
-      if (*std::max_element(corners.begin(), corners.end()) > best) {
-        best = std::max(best, maximum(cubic_along(corners, passage.p_enter, passage.p_exit)));
+    const auto on_brick = [&](std::size_t brick, double) { return bricks.greatest[brick] > best; };
+    const auto on_cell = [&](const glm::ivec3& cell, double t_enter, double t_exit) {
+      const T* base = first_corner(cell);
+      if (greatest_corner(base) > best) {
+        best = std::max(best, maximum(cubic_in(cell, base, line, t_enter, t_exit)));
       }
       return best < ceiling;
     };
-    GridWalk(bricks, cells, line, on_brick, on_cell).run(interval);
+    walk_grid(bricks, cells, line, interval, on_brick, on_cell);
     return best;
   }
 
@@ -147,39 +147,49 @@ class ExactWalk::TypedWalker final : public ExactWalk::Walker {
     double sum = 0.0;
     const EmissionKnot& first = emission_of_field.knots().front();
     const EmissionKnot& last = emission_of_field.knots().back();
-    auto on_brick = [&](std::size_t brick, double length_mm) {
-      if (bricks.greatest[brick] <= first.value) {
-        sum += first.emission * length_mm;
-        return false;
-      }
-      if (bricks.least[brick] >= last.value) {
-        sum += last.emission * length_mm;
-        return false;
-      }
+    const auto on_brick = [&](std::size_t brick, double length_mm) {
+      const bool dark = bricks.greatest[brick] <= first.value;
+      if (!dark && bricks.least[brick] < last.value) return true;
+      sum += (dark ? first.emission : last.emission) * length_mm;
+      return false;
+    };
+    const auto on_cell = [&](const glm::ivec3& cell, double t_enter, double t_exit) {
+      const T* base = first_corner(cell);
+      const double mean =
+          greatest_corner(base) <= first.value
+              ? first.emission
+              : mean_emission(emission_of_field, cubic_in(cell, base, line, t_enter, t_exit));
+      sum += (t_exit - t_enter) * mean;
       return true;
     };
-    auto on_cell = [&](const CellPassage& passage) {
-      const CellCorners corners = corners_of(passage.cell);
-      const double greatest = *std::max_element(corners.begin(), corners.end());
-      sum += passage.length_mm *
-             (greatest <= first.value
-                  ? first.emission
-                  : mean_emission(emission_of_field,
-                                  cubic_along(corners, passage.p_enter, passage.p_exit)));
-      return true;
-    };
-    GridWalk(bricks, cells, line, on_brick, on_cell).run(interval);
+    walk_grid(bricks, cells, line, interval, on_brick, on_cell);
     return sum;
   }
 
  private:
-  CellCorners corners_of(const glm::i64vec3& cell) const {
-    const T* base = samples_.data() + (cell.x + stride_y_ * cell.y + stride_z_ * cell.z);
+  const T* first_corner(const glm::ivec3& cell) const {
+    return samples_.data() + (cell.x + stride_y_ * cell.y + stride_z_ * cell.z);
+  }
+
+  /// In field units. Compared in the stored type: most cells end here.
+  double greatest_corner(const T* base) const {
+    T least = base[0];
+    T greatest = base[0];
+    for (std::size_t i = 1; i < 8; ++i) {
+      least = std::min(least, base[corner_offset_[i]]);
+      greatest = std::max(greatest, base[corner_offset_[i]]);
+    }
+    return factor * static_cast<double>(factor > 0.0 ? greatest : least);
+  }
+
+  BernsteinCubic cubic_in(const glm::ivec3& cell, const T* base, const CellLine& line,
+                          double t_enter, double t_exit) const {
     CellCorners corners;
     for (std::size_t i = 0; i < 8; ++i) {
       corners[i] = factor * static_cast<double>(base[corner_offset_[i]]);
     }
-    return corners;
+    return cubic_along(corners, point_in_cell(line, cell, t_enter),
+                       point_in_cell(line, cell, t_exit));
   }
 
   std::span<const T> samples_;

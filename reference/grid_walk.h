@@ -1,9 +1,7 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdint>
 #include <glm/common.hpp>
 #include <glm/vec3.hpp>
 #include <limits>
@@ -71,148 +69,115 @@ inline std::optional<LineInterval> clip_to_grid(CellLine& line, const glm::i64ve
   return interval;
 }
 
-/// One cell that a line passes: where it is, and where the line enters and leaves it.
-struct CellPassage {
-  glm::i64vec3 cell;
-  glm::dvec3 p_enter;  ///< relative to the cell's lower corner, in [0, 1]^3
-  glm::dvec3 p_exit;
-  double length_mm;
-};
-
-/// Walks the cells of a grid along a line, from near to far, a brick at a time.
+/// Steps through the boxes of a grid of cubes (cells, or bricks of cells) in the order a line
+/// passes them.
 ///
 /// Planes are found from integer indices, never by adding steps, so that no error builds up, and a
-/// cell once left is not entered again: each part of the line belongs to exactly one passage. Rays
-/// along faces and edges take one of the cells that share them (the field is the same).
-///
-/// `on_brick(brick_index, length_mm)` is asked at each new brick: to walk its cells (true) or pass
-/// it by. `on_cell(passage)` is called for each cell; false ends the walk.
-///
-/// @pre  the interval comes from `clip_to_grid`
-template <class OnBrick, class OnCell>
-class GridWalk {
+/// brick and its cells agree on where their common planes are crossed, to the last bit.
+class LineStepper {
  public:
-  GridWalk(const VolumeBricks& bricks, const glm::i64vec3& cells, const CellLine& line,
-           OnBrick& on_brick, OnCell& on_cell)
-      : bricks_(bricks), cells_(cells), line_(line), on_brick_(on_brick), on_cell_(on_cell) {
+  /// @param side   cells along a cube's edge
+  /// @param first  the cube to start in
+  LineStepper(const CellLine& line, int side, const glm::ivec3& first)
+      : origin_(line.origin), index_(first), side_(side) {
     for (int axis = 0; axis < 3; ++axis) {
       const double d = line.direction[axis];
-      step_[axis] = d > 0.0 ? 1 : -1;
+      step_[axis] = d < 0.0 ? -1 : 1;
       inverse_[axis] = 1.0 / d;
+      // Never crossed: (plane - origin) * inverse would be 0 * infinity.
+      t_exit_[axis] = d == 0.0 ? std::numeric_limits<double>::infinity() : plane_t(axis);
     }
   }
 
-  void run(const LineInterval& interval) {
-    t_ = interval.t_enter;
-    t_end_ = interval.t_exit;
-    p_ = position(t_);
-    for (int axis = 0; axis < 3; ++axis) {
-      cell_[axis] = cell_below(p_[axis], axis, 0, cells_[axis] - 1);
-    }
-    while (t_ < t_end_) {
-      const glm::i64vec3 brick = cell_ >> VolumeBricks::kShift;
-      brick_lo_ = brick << VolumeBricks::kShift;
-      brick_hi_ = glm::min(brick_lo_ + (VolumeBricks::kSide - 1), cells_ - std::int64_t{1});
-      const int axis = exit_axis(brick_lo_, brick_hi_ + std::int64_t{1});
-      const double t_out = exit_t(axis, brick_lo_, brick_hi_ + std::int64_t{1});
-      if (on_brick_(bricks_.index(brick), std::max(t_out - t_, 0.0))) {
-        if (!walk_brick()) return;
-      } else {
-        leave_brick(axis, t_out);
-      }
-      if (outside_grid()) return;
-    }
+  const glm::ivec3& index() const { return index_; }
+
+  /// The axis along which the line leaves the current cube.
+  int exit_axis() const {
+    const int axis = t_exit_[0] <= t_exit_[1] ? 0 : 1;
+    return t_exit_[2] < t_exit_[axis] ? 2 : axis;
+  }
+
+  /// Where it does so, mm.
+  double exit_t(int axis) const { return t_exit_[axis]; }
+
+  void advance(int axis) {
+    index_[axis] += step_[axis];
+    t_exit_[axis] = plane_t(axis);
   }
 
  private:
-  glm::dvec3 position(double t) const { return line_.origin + t * line_.direction; }
-
-  /// The cell that holds a coordinate; on a plane, the one that the line goes into.
-  std::int64_t cell_below(double p, int axis, std::int64_t lo, std::int64_t hi) const {
-    double index = std::floor(p);
-    if (index == p && line_.direction[axis] < 0.0) index -= 1.0;
-    return std::clamp(static_cast<std::int64_t>(index), lo, hi);
+  double plane_t(int axis) const {
+    const int plane = side_ * (index_[axis] + (step_[axis] > 0 ? 1 : 0));
+    return (plane - origin_[axis]) * inverse_[axis];
   }
 
-  /// Where the line passes the plane through which it leaves [lo, hi] along an axis.
-  double plane_t(int axis, const glm::i64vec3& lo, const glm::i64vec3& hi) const {
-    if (line_.direction[axis] == 0.0) return std::numeric_limits<double>::infinity();
-    const auto plane = static_cast<double>(step_[axis] > 0 ? hi[axis] : lo[axis]);
-    return (plane - line_.origin[axis]) * inverse_[axis];
-  }
-
-  int exit_axis(const glm::i64vec3& lo, const glm::i64vec3& hi) const {
-    const std::array<double, 3> t{plane_t(0, lo, hi), plane_t(1, lo, hi), plane_t(2, lo, hi)};
-    return static_cast<int>(std::min_element(t.begin(), t.end()) - t.begin());
-  }
-
-  double exit_t(int axis, const glm::i64vec3& lo, const glm::i64vec3& hi) const {
-    return std::min(plane_t(axis, lo, hi), t_end_);
-  }
-
-  bool outside_grid() const {
-    for (int axis = 0; axis < 3; ++axis) {
-      if (cell_[axis] < 0 || cell_[axis] >= cells_[axis]) return true;
-    }
-    return false;
-  }
-
-  /// Moves to where the line leaves the current brick, without looking at its cells.
-  void leave_brick(int axis, double t_out) {
-    t_ = std::max(t_, t_out);
-    p_ = position(t_);
-    for (int other = 0; other < 3; ++other) {
-      cell_[other] = cell_below(p_[other], other, brick_lo_[other], brick_hi_[other]);
-    }
-    cell_[axis] = step_[axis] > 0 ? brick_hi_[axis] + 1 : brick_lo_[axis] - 1;
-  }
-
-  /// False when `on_cell` has seen enough.
-  bool walk_brick() {
-    glm::dvec3 t_plane;
-    for (int axis = 0; axis < 3; ++axis)
-      t_plane[axis] = plane_t(axis, cell_, cell_ + std::int64_t{1});
-    while (true) {
-      int axis = t_plane.x <= t_plane.y ? 0 : 1;
-      if (t_plane.z < t_plane[axis]) axis = 2;
-      const double t_out = std::min(t_plane[axis], t_end_);
-      if (t_out > t_) {
-        const glm::dvec3 p_out = position(t_out);
-        if (!on_cell_(passage(p_out, t_out))) return false;
-        t_ = t_out;
-        p_ = p_out;
-      }
-      if (t_out >= t_end_) {
-        t_ = t_end_;
-        return true;
-      }
-      cell_[axis] += step_[axis];
-      if (cell_[axis] < brick_lo_[axis] || cell_[axis] > brick_hi_[axis]) return true;
-      t_plane[axis] = plane_t(axis, cell_, cell_ + std::int64_t{1});
-    }
-  }
-
-  CellPassage passage(const glm::dvec3& p_out, double t_out) const {
-    const glm::dvec3 corner(cell_);
-    return {cell_, glm::clamp(p_ - corner, 0.0, 1.0), glm::clamp(p_out - corner, 0.0, 1.0),
-            t_out - t_};
-  }
-
-  const VolumeBricks& bricks_;
-  const glm::i64vec3 cells_;
-  const CellLine& line_;
-  OnBrick& on_brick_;
-  OnCell& on_cell_;
-
-  glm::i64vec3 step_{1};
+  glm::dvec3 origin_;
   glm::dvec3 inverse_{0.0};
-
-  double t_ = 0.0;
-  double t_end_ = 0.0;
-  glm::dvec3 p_{0.0};  ///< position(t_)
-  glm::i64vec3 cell_{0};
-  glm::i64vec3 brick_lo_{0};  ///< first cell of the current brick
-  glm::i64vec3 brick_hi_{0};  ///< and its last
+  glm::dvec3 t_exit_{0.0};
+  glm::ivec3 index_;
+  glm::ivec3 step_{1};
+  int side_;
 };
+
+/// The cube of the given side, within [lo, hi], that holds a point; on a plane, the one that the
+/// line goes into.
+inline glm::ivec3 cube_at(const CellLine& line, double t, int side, const glm::ivec3& lo,
+                          const glm::ivec3& hi) {
+  glm::ivec3 cube;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double p = (line.origin[axis] + t * line.direction[axis]) / side;
+    double index = std::floor(p);
+    if (index == p && line.direction[axis] < 0.0) index -= 1.0;
+    cube[axis] = static_cast<int>(std::clamp<double>(index, lo[axis], hi[axis]));
+  }
+  return cube;
+}
+
+/// A point of the line relative to a cell's lower corner, in [0, 1]^3.
+inline glm::dvec3 point_in_cell(const CellLine& line, const glm::ivec3& cell, double t) {
+  return glm::clamp(line.origin + t * line.direction - glm::dvec3(cell), 0.0, 1.0);
+}
+
+/// Walks the cells of a grid along a line, from near to far, a brick at a time.
+///
+/// Each part of the line belongs to exactly one cell: none is lost between cells, none counted
+/// twice. Lines along faces and edges take one of the cells that share them (the field is the
+/// same).
+///
+/// @param interval  from `clip_to_grid`
+/// @param on_brick  `bool(brick_index, length_mm)`: walk the brick's cells (true), or pass it by
+/// @param on_cell   `bool(cell, t_enter, t_exit)`: false ends the walk
+template <class OnBrick, class OnCell>
+void walk_grid(const VolumeBricks& bricks, const glm::i64vec3& cells, const CellLine& line,
+               const LineInterval& interval, OnBrick&& on_brick, OnCell&& on_cell) {
+  constexpr int kSide = VolumeBricks::kSide;
+  const glm::ivec3 last_cell = glm::ivec3(cells) - 1;
+  const glm::ivec3 last_brick = glm::ivec3(bricks.count) - 1;
+  const auto inside = [](const glm::ivec3& index, const glm::ivec3& lo, const glm::ivec3& hi,
+                         int axis) { return index[axis] >= lo[axis] && index[axis] <= hi[axis]; };
+
+  LineStepper brick(line, kSide, cube_at(line, interval.t_enter, kSide, glm::ivec3(0), last_brick));
+  double t = interval.t_enter;
+  while (t < interval.t_exit) {
+    const int brick_axis = brick.exit_axis();
+    const double t_brick = std::clamp(brick.exit_t(brick_axis), t, interval.t_exit);
+    if (t_brick > t && on_brick(bricks.index(brick.index()), t_brick - t)) {
+      const glm::ivec3 lo = kSide * brick.index();
+      const glm::ivec3 hi = glm::min(lo + (kSide - 1), last_cell);
+      LineStepper cell(line, 1, cube_at(line, t, 1, lo, hi));
+      while (t < t_brick) {
+        const int axis = cell.exit_axis();
+        const double t_cell = std::clamp(cell.exit_t(axis), t, t_brick);
+        if (t_cell > t && !on_cell(cell.index(), t, t_cell)) return;
+        t = t_cell;
+        cell.advance(axis);
+        if (!inside(cell.index(), lo, hi, axis)) break;
+      }
+    }
+    t = t_brick;
+    brick.advance(brick_axis);
+    if (!inside(brick.index(), glm::ivec3(0), last_brick, brick_axis)) return;
+  }
+}
 
 }  // namespace nacre

@@ -1,6 +1,6 @@
 #include "reference/volume_bricks.h"
 
-#include <tbb/blocked_range.h>
+#include <tbb/blocked_range2d.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -38,11 +38,11 @@ void include_row(std::span<const T> samples, std::vector<Range<T>>& row) {
 
 /// The bricks of one row along x.
 template <class T>
-void fill_brick_row(std::span<const T> samples, const glm::i64vec3& dims, std::int64_t brick_y,
-                    std::int64_t brick_z, VolumeBricks& bricks) {
+void fill_brick_row(std::span<const T> samples, const glm::i64vec3& dims, int brick_y, int brick_z,
+                    VolumeBricks& bricks) {
   std::vector<Range<T>> row(static_cast<std::size_t>(bricks.count.x));
-  const std::int64_t y_first = brick_y * VolumeBricks::kSide;
-  const std::int64_t z_first = brick_z * VolumeBricks::kSide;
+  const std::int64_t y_first = std::int64_t{VolumeBricks::kSide} * brick_y;
+  const std::int64_t z_first = std::int64_t{VolumeBricks::kSide} * brick_z;
   const std::int64_t y_last = std::min(y_first + VolumeBricks::kSide, dims.y - 1);
   const std::int64_t z_last = std::min(z_first + VolumeBricks::kSide, dims.z - 1);
   for (std::int64_t z = z_first; z <= z_last; ++z) {
@@ -67,14 +67,20 @@ glm::i64vec3 cell_count(const glm::i64vec3& dims) noexcept {
 
 VolumeBricks make_volume_bricks(const Volume& volume) {
   VolumeBricks bricks;
-  bricks.count = (cell_count(volume.dims) + (VolumeBricks::kSide - 1)) / VolumeBricks::kSide;
-  const auto total = static_cast<std::size_t>(bricks.count.x * bricks.count.y * bricks.count.z);
+  constexpr std::int64_t kSide = VolumeBricks::kSide;
+  bricks.count = glm::ivec3((cell_count(volume.dims) + (kSide - 1)) / kSide);
+  const std::size_t total = bricks.index({0, 0, bricks.count.z});
   bricks.least.resize(total);
   bricks.greatest.resize(total);
   visit_samples(volume, [&]<class T>(std::span<const T> samples) {
-    tbb::parallel_for(std::int64_t{0}, bricks.count.y * bricks.count.z, [&](std::int64_t row) {
-      fill_brick_row(samples, volume.dims, row % bricks.count.y, row / bricks.count.y, bricks);
-    });
+    tbb::parallel_for(tbb::blocked_range2d<int>(0, bricks.count.z, 0, bricks.count.y),
+                      [&](const tbb::blocked_range2d<int>& rows) {
+                        for (int z = rows.rows().begin(); z != rows.rows().end(); ++z) {
+                          for (int y = rows.cols().begin(); y != rows.cols().end(); ++y) {
+                            fill_brick_row(samples, volume.dims, y, z, bricks);
+                          }
+                        }
+                      });
   });
   return bricks;
 }

@@ -12,15 +12,17 @@ namespace nacre {
 /// Least and greatest stored sample over the cells of each brick of 8 x 8 x 8 cells (so over up to
 /// 9 x 9 x 9 samples): what the trilinear field can be inside. Built in parallel, in one pass.
 struct VolumeBricks {
-  static constexpr std::int64_t kShift = 3;  ///< a brick's side is 1 << kShift cells
-  static constexpr std::int64_t kSide = std::int64_t{1} << kShift;
+  static constexpr int kSide = 8;  ///< cells along a brick's edge
 
-  glm::i64vec3 count{0};      ///< bricks along x, y, z
+  glm::ivec3 count{0};        ///< bricks along x, y, z
   std::vector<double> least;  ///< x fastest
   std::vector<double> greatest;
 
-  std::size_t index(const glm::i64vec3& brick) const noexcept {
-    return static_cast<std::size_t>(brick.x + count.x * (brick.y + count.y * brick.z));
+  std::size_t index(const glm::ivec3& brick) const noexcept {
+    return static_cast<std::size_t>(brick.x) +
+           static_cast<std::size_t>(count.x) *
+               (static_cast<std::size_t>(brick.y) +
+                static_cast<std::size_t>(count.y) * static_cast<std::size_t>(brick.z));
   }
 };
 
