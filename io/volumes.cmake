@@ -1,1 +1,36 @@
-# nacre::io_volumes
+find_package(fmt REQUIRED)
+find_package(ZLIB REQUIRED)
+# Not find_package(NIFTI): Debian's package names library files that are elsewhere.
+find_path(NACRE_NIFTI_INCLUDE_DIR nifti/nifti2_io.h REQUIRED)
+find_library(NACRE_NIFTI2_LIBRARY nifti2 REQUIRED)
+
+# nacre::io_files: a file that appears under its name only when it is whole.
+nacre_library(io_files
+  SOURCES atomic_file.cpp
+  HEADERS atomic_file.h
+  LINK nacre::core
+  LINK_PRIVATE fmt::fmt)
+
+# nacre::io_volumes: volume files and DICOM series to volumes, and back.
+nacre_library(io_volumes
+  SOURCES bad_file.cpp data_files.cpp nifti_header.cpp nifti_volume.cpp non_finite.cpp
+    raw_volume.cpp stored_samples.cpp stretch.cpp volume_checks.cpp volume_crop.cpp
+    volume_reader.cpp
+  HEADERS bad_file.h data_files.h length_unit.h metaimage_text.h metaimage_volume.h nifti_header.h
+    nifti_volume.h non_finite.h nrrd_text.h nrrd_volume.h number_list.h raw_volume.h
+    stored_samples.h stretch.h volume_checks.h volume_crop.h volume_read_report.h volume_reader.h
+  LINK nacre::core
+  LINK_PRIVATE fmt::fmt ${NACRE_NIFTI2_LIBRARY} ZLIB::ZLIB)
+target_include_directories(nacre_io_volumes SYSTEM PRIVATE
+  ${NACRE_NIFTI_INCLUDE_DIR} ${NACRE_NIFTI_INCLUDE_DIR}/nifti)
+
+if(NACRE_WITH_ITK)
+  find_package(ITK REQUIRED COMPONENTS ITKIOMeta ITKNrrdIO)
+  target_sources(nacre_io_volumes PRIVATE
+    length_unit.cpp metaimage_text.cpp metaimage_volume.cpp nrrd_text.cpp nrrd_volume.cpp)
+  # After the NIfTI library's headers: ITK brings an old znzlib.h of its own.
+  target_include_directories(nacre_io_volumes SYSTEM PRIVATE ${ITK_INCLUDE_DIRS})
+  target_link_libraries(nacre_io_volumes PRIVATE ${ITK_LIBRARIES})
+else()
+  target_sources(nacre_io_volumes PRIVATE without_itk.cpp)
+endif()
