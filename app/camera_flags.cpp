@@ -36,11 +36,11 @@ void add_camera_flags(CLI::App& verb, CameraFlags& flags) {
   verb.add_option("--size", flags.size, "WxH of the picture in pixels")
       ->capture_default_str()
       ->group(group);
-  verb.add_option("--view", flags.view,
-                  "anterior, posterior, left, right, superior or inferior")
+  verb.add_option("--view", flags.view, "anterior, posterior, left, right, superior or inferior")
       ->capture_default_str()
       ->group(group);
-  verb.add_option("--azimuth", flags.azimuth_deg, "DEG the camera moves to its right")->group(group);
+  verb.add_option("--azimuth", flags.azimuth_deg, "DEG the camera moves to its right")
+      ->group(group);
   verb.add_option("--elevation", flags.elevation_deg, "DEG it then moves up")->group(group);
   verb.add_option("--roll", flags.roll_deg, "DEG it then turns about the viewing direction")
       ->group(group);

@@ -23,7 +23,7 @@ struct CameraFlags {
   double distance_mm = 0.0;
   std::string look_at;
   std::string slab;
-  int turntable = 0;  ///< views about the up axis; 0: the one view
+  int turntable = 0;             ///< views about the up axis; 0: the one view
   bool has_perspective = false;  ///< else orthographic
   bool has_distance = false;     ///< else the usual one
 };

@@ -53,11 +53,12 @@ void Reporter::warn(const std::string& line) {
 ProgressCallback Reporter::progress() {
   if (!show_progress_) return {};
   return [this](std::string_view stage, double fraction) {
-    if (std::chrono::steady_clock::now() - started_ < kPatience && flags_.progress == "auto") return;
+    if (std::chrono::steady_clock::now() - started_ < kPatience && flags_.progress == "auto")
+      return;
     constexpr int kWidth = 30;
     const int done = static_cast<int>(kWidth * fraction);
-    fmt::print(stderr, "\r{:<10} [{:<{}}] {:3.0f} %", stage, std::string(static_cast<std::size_t>(done), '#'),
-               kWidth, 100.0 * fraction);
+    fmt::print(stderr, "\r{:<10} [{:<{}}] {:3.0f} %", stage,
+               std::string(static_cast<std::size_t>(done), '#'), kWidth, 100.0 * fraction);
     std::fflush(stderr);
     progress_on_screen_ = true;
   };

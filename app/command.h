@@ -16,9 +16,9 @@ namespace nacre {
 struct CommonFlags {
   bool quiet = false;
   bool verbose = false;
-  int threads = 0;                 ///< 0: all
-  std::string progress = "auto";   ///< auto, always, never
-  std::string json;                ///< file for figures; "-" is standard output; empty: none
+  int threads = 0;                ///< 0: all
+  std::string progress = "auto";  ///< auto, always, never
+  std::string json;               ///< file for figures; "-" is standard output; empty: none
 };
 
 /// Adds -q, -v, --threads, --progress and --json to a verb.
