@@ -53,7 +53,7 @@ int run_nacre(int argc, char** argv) {
   app.require_subcommand(1);
   app.get_formatter()->column_width(34);
   int status = 0;
-  add_phantom_verb(app, status);
+
   add_render_verb(app, status);
   add_reference_verb(app, status);
   add_compare_verb(app, status);
