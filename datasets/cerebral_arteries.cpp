@@ -85,14 +85,25 @@ std::vector<glm::dvec3> moved_controls(const Trunk& trunk, double side, RandomSe
   return controls;
 }
 
-void add_trunk(Arteries& arteries, const Trunk& trunk, double side, RandomSequence& random) {
+/// Where a trunk leaves its parent: its end where the anatomy says so, else the nearest node.
+std::int32_t branching_node(const Arteries& arteries, std::span<const Trunk> trunks,
+                            const Trunk& trunk, double side, const glm::dvec3& start_mm) {
+  const std::vector<std::int32_t>& nodes = arteries.trunk(trunk.parent, side);
+  const auto parent = std::ranges::find(trunks, trunk.parent, &Trunk::name);
+  assert(parent != trunks.end());
+  if (parent->controls_mm.back() == trunk.controls_mm.front()) return nodes.back();
+  return nearest_node(arteries, nodes, start_mm);
+}
+
+void add_trunk(Arteries& arteries, std::span<const Trunk> trunks, const Trunk& trunk, double side,
+               RandomSequence& random) {
   std::vector<glm::dvec3> controls = moved_controls(trunk, side, random);
   std::vector<std::int32_t>& own = arteries.trunks[{trunk.name, side}];
   if (trunk.parent.empty()) {
     arteries.nodes.push_back({controls.front()});
     own.push_back(static_cast<std::int32_t>(arteries.nodes.size()) - 1);
   } else {
-    own.push_back(nearest_node(arteries, arteries.trunk(trunk.parent, side), controls.front()));
+    own.push_back(branching_node(arteries, trunks, trunk, side, controls.front()));
     controls.front() = arteries.nodes[static_cast<std::size_t>(own.front())].p_mm;
   }
   for (const glm::dvec3& p_mm : curve_through(controls)) {
@@ -210,8 +221,8 @@ VesselTree make_cerebral_arteries(std::uint64_t seed) {
   const std::vector<Trunk> trunks = cerebral_trunks();
   Arteries arteries;
   for (const Trunk& trunk : trunks) {
-    add_trunk(arteries, trunk, kLeft, random);
-    if (!trunk.midline) add_trunk(arteries, trunk, kRight, random);
+    add_trunk(arteries, trunks, trunk, kLeft, random);
+    if (!trunk.midline) add_trunk(arteries, trunks, trunk, kRight, random);
   }
   for (const TerritorySupply& supply : territory_supplies()) {
     for (const double side : {kLeft, kRight}) {

@@ -14,6 +14,7 @@
 #include "datasets/closed_forms.h"
 #include "datasets/grid.h"
 #include "datasets/random.h"
+#include "datasets/scalar_fields.h"
 
 namespace nacre {
 namespace {
@@ -106,7 +107,19 @@ Volume checkerboard(const Order& order, const ProgressCallback& progress) {
                         });
 }
 
-constexpr std::array<PhantomInfo, 6> kPhantoms{{
+Volume hipip(const Order& order, const ProgressCallback& progress) {
+  return sampled<std::int16_t>(
+      order, glm::dvec3(64.0), progress,
+      [](const glm::i64vec3&, const glm::dvec3& p_mm) { return hipip_value(p_mm); });
+}
+
+Volume plume(const Order& order, const ProgressCallback& progress) {
+  return sampled<float>(
+      order, {210.0, 210.0, 510.0}, progress,
+      [](const glm::i64vec3&, const glm::dvec3& p_mm) { return PlumeField{}.value(p_mm); });
+}
+
+constexpr std::array<PhantomInfo, 8> kPhantoms{{
     {"angiogram",
      "arteries of a head with an aneurysm, in tissue, with Rician noise (i16)",
      {256, 256, 124},
@@ -149,10 +162,24 @@ constexpr std::array<PhantomInfo, 6> kPhantoms{{
      0.0,
      0.0,
      1.0},
+    {"hipip",
+     "a wave function with lobes of both signs, like the iron protein's (i16)",
+     {64, 64, 64},
+     ScalarType::I16,
+     0.0,
+     0.0,
+     255.0},
+    {"plume",
+     "a contaminant in flowing ground water, mg/l",
+     {21, 21, 51},
+     ScalarType::F32,
+     0.0,
+     0.0,
+     100.0},
 }};
 
-constexpr std::array<Maker, kPhantoms.size()> kMakers{angiogram, spheres, torus,
-                                                      quadratic, cell,    checkerboard};
+constexpr std::array<Maker, kPhantoms.size()> kMakers{angiogram, spheres,      torus, quadratic,
+                                                      cell,      checkerboard, hipip, plume};
 
 /// Place of a phantom in the list.
 std::size_t place_of(std::string_view name) {
