@@ -8,6 +8,8 @@
 
 #include "core/error.h"
 #include "io/bad_file.h"
+#include "io/dicom_magic.h"
+#include "io/dicom_series.h"
 #include "io/metaimage_volume.h"
 #include "io/nifti_volume.h"
 #include "io/non_finite.h"
@@ -27,6 +29,10 @@ bool ends_with_any(const std::string& name, std::initializer_list<const char*> e
 Volume read_by_kind(const fs::path& path, const VolumeReadOptions& options,
                     VolumeReadReport& report) {
   if (options.raw) return read_raw(path, *options.raw, report);
+  std::error_code ignored;
+  if (fs::is_directory(path, ignored)) {
+    return read_dicom_series(path, options.dicom_series, report);
+  }
   file_size_of(path);  // says that nothing is there before any reader says what it is not
   std::string name = path.filename().string();
   std::transform(name.begin(), name.end(), name.begin(),
@@ -36,6 +42,9 @@ Volume read_by_kind(const fs::path& path, const VolumeReadOptions& options,
   }
   if (ends_with_any(name, {".nrrd", ".nhdr"})) return read_nrrd(path, report);
   if (ends_with_any(name, {".mha", ".mhd"})) return read_metaimage(path, report);
+  if (name.ends_with(".dcm") || has_dicom_magic(path)) {
+    throw_bad_file(path, "one DICOM file", "the folder that holds its series");
+  }
   throw_bad_file(path, fmt::format("extension \"{}\"", printable(path.extension().string())),
                  ".nii, .nii.gz, .hdr, .img, .nrrd, .nhdr, .mha, .mhd, a DICOM folder, or --raw");
 }

@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 
 #include "core/error.h"
+#include "io/dicom_series.h"
 #include "io/metaimage_volume.h"
 #include "io/nrrd_volume.h"
 
@@ -22,6 +23,11 @@ Volume read_nrrd(const std::filesystem::path& path, VolumeReadReport& /*report*/
 
 Volume read_metaimage(const std::filesystem::path& path, VolumeReadReport& /*report*/) {
   throw_not_built_in(path, "a MetaImage volume");
+}
+
+Volume read_dicom_series(const std::filesystem::path& folder, const std::string& /*series_uid*/,
+                         VolumeReadReport& /*report*/) {
+  throw_not_built_in(folder, "a folder, perhaps a DICOM series");
 }
 
 }  // namespace nacre

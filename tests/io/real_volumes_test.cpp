@@ -156,6 +156,23 @@ TEST(RealVolumes, KeepNegativeDirections) {
   EXPECT_NEAR(matrix[3][2], -9.5, 0.0005);
 }
 
+TEST(RealVolumes, SpaceADicomSeriesByItsPositions) {
+  NACRE_TEST_DATA_OR_SKIP(path, "volumes/dicom_brain_pd");
+  const VolumeFile file = read_volume(path);
+  EXPECT_EQ(file.volume.dims, glm::i64vec3(256, 256, 19));
+  EXPECT_EQ(file.volume.type, ScalarType::I16);
+  const glm::dvec3 spacing = spacing_mm(file.volume.world_from_voxel);
+  EXPECT_NEAR(spacing.x, 0.8594, kFourDigits);
+  EXPECT_NEAR(spacing.y, 0.8594, kFourDigits);
+  EXPECT_NEAR(spacing.z, 7.0, 0.005);  // SpacingBetweenSlices says 2, SliceThickness 5
+  const glm::dmat4& matrix = file.volume.world_from_voxel;
+  EXPECT_NEAR(matrix[1][1] / spacing.y, 0.99096, 1e-5);
+  EXPECT_NEAR(matrix[1][2] / spacing.y, 0.134158, 1e-5);
+  EXPECT_GT(handedness(matrix), 0.0);
+  EXPECT_EQ(stored_range(file.volume).highest, 1059);
+  EXPECT_EQ(stored_range(file.volume).lowest, 0);
+}
+
 TEST(RealVolumes, KeepTheScaleOfAScaledNifti) {
   NACRE_TEST_DATA_OR_SKIP(path, "volumes/MR_Gd.nii.gz");
   const Volume volume = read_volume(path).volume;
