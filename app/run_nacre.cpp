@@ -54,6 +54,7 @@ int run_nacre(int argc, char** argv) {
   app.get_formatter()->column_width(34);
   int status = 0;
 
+  add_phantom_verb(app, status);
   add_render_verb(app, status);
   add_reference_verb(app, status);
   add_compare_verb(app, status);
