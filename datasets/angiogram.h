@@ -39,8 +39,9 @@ Volume make_angiogram(const AngiogramOptions& options, const ProgressCallback& p
 ///     c = (1 - e^(-r^2 / 2 s^2)) / erf(r / sqrt(2) s)
 ///         * (erf((r - d) / sqrt(2) s) + erf((r + d) / sqrt(2) s)) / 2
 ///
-/// Exact for a straight vessel on its axis (d = 0, the first factor times erf: a disc under a
-/// Gaussian), in the limit of a thick one (a plane wall) and of a thin one (a Gaussian line).
+/// (docs/derivations.md, P7). Exact for a straight vessel on its axis (d = 0, the first factor
+/// times erf: a disc under a Gaussian), in the limit of a thick one (a plane wall) and of a thin
+/// one (a Gaussian line).
 ///
 /// @param distance  d, from the axis
 /// @param radius    r, positive
