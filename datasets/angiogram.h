@@ -16,10 +16,10 @@ struct AngiogramOptions {
 };
 
 /// Field of view, mm: 0.7 x 0.7 x 0.8 mm a voxel by default.
-inline constexpr glm::dvec3 kAngiogramExtent_mm{179.2, 179.2, 99.2};
+inline constexpr glm::dvec3 kAngiogramExtentMm{179.2, 179.2, 99.2};
 
 /// Width of the scanner's point spread, the standard deviation of a Gaussian, in mean voxel edges.
-inline constexpr double kPointSpread_voxels = 0.45;
+inline constexpr double kPointSpreadVoxels = 0.45;
 
 /// A magnetic resonance angiogram of the arteries of make_cerebral_arteries(), in a head's tissue:
 /// i16, 0 to 4095.

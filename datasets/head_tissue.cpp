@@ -59,17 +59,17 @@ double HeadTissue::brain_signal(const glm::dvec3& p_mm, double scale, double fol
 }
 
 double HeadTissue::signal(const glm::dvec3& p_mm) const {
-  constexpr double kWall = 0.015;  // width of the steps, in brain scales: about a millimetre
+  constexpr double wall = 0.015;  // width of the steps, in brain scales: about a millimetre
   const double scale = brain_.scale_of(p_mm);
   if (scale > 1.25) return 0.0;
   const double folding = folding_at(p_mm, folding_seed_);
   const double ripple = scale + 0.01 * folding;
   if (ripple > 1.13) {
-    const double outside = step(kFat, 0.0, 1.19, kWall, scale);
-    return step(kBone, outside, 1.14, kWall, ripple);
+    const double outside = step(kFat, 0.0, 1.19, wall, scale);
+    return step(kBone, outside, 1.14, wall, ripple);
   }
-  if (ripple > 1.02) return step(kFluid, kBone, 1.05, kWall, ripple);
-  return step(brain_signal(p_mm, scale, folding), kFluid, 1.0, kWall, ripple);
+  if (ripple > 1.02) return step(kFluid, kBone, 1.05, wall, ripple);
+  return step(brain_signal(p_mm, scale, folding), kFluid, 1.0, wall, ripple);
 }
 
 double coil_gain(const glm::dvec3& p_mm) {

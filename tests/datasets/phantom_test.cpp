@@ -107,10 +107,10 @@ void expect_samples(const Volume& volume, const Field& field, double tolerance) 
 
 TEST(Phantom, ClosedFormsHoldAtTheirSamples) {
   const PhantomOptions odd{.size = glm::i64vec3(17, 30, 9)};
-  constexpr double kFloat = 4e-6;  // half a unit in the last place of values up to 64
-  expect_samples<float>(make_phantom("spheres"), SphereField{}, kFloat);
-  expect_samples<float>(make_phantom("spheres", odd), SphereField{}, kFloat);
-  expect_samples<float>(make_phantom("torus", odd), TorusField{}, kFloat);
+  constexpr double float_rounding = 4e-6;  // half a unit in the last place of values up to 64
+  expect_samples<float>(make_phantom("spheres"), SphereField{}, float_rounding);
+  expect_samples<float>(make_phantom("spheres", odd), SphereField{}, float_rounding);
+  expect_samples<float>(make_phantom("torus", odd), TorusField{}, float_rounding);
   expect_samples<double>(make_phantom("quadratic", odd), QuadraticField{}, 1e-11);
 }
 
