@@ -30,11 +30,11 @@ struct PlanRules {
 /// What to show of a scene, and how.
 struct RenderOptions {
   PictureMode mode = PictureMode::Max;
-  DepthCue cue;
-  Slab slab;
+  DepthCue cue = {};
+  Slab slab = {};
   std::vector<std::uint32_t> hidden = {};  ///< indices into the set's shells, from 0; any order
   DepthFormat depth = DepthFormat::D32F;
-  PlanRules rules;
+  PlanRules rules = {};
 };
 
 }  // namespace nacre
