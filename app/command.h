@@ -1,0 +1,82 @@
+#pragma once
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "core/progress.h"
+
+namespace CLI {
+class App;
+}
+
+namespace nacre {
+
+/// What every verb has: how much it says, where its figures go, how many threads it may use.
+struct CommonFlags {
+  bool quiet = false;
+  bool verbose = false;
+  int threads = 0;                ///< 0: all
+  std::string progress = "auto";  ///< auto, always, never
+  std::string json;               ///< file for figures; "-" is standard output; empty: none
+};
+
+/// Adds -q, -v, --threads, --progress and --json to a verb.
+void add_common_flags(CLI::App& verb, CommonFlags& flags);
+
+/// Speaks for a verb while it runs: progress to a terminal, facts to standard output (to standard
+/// error when that carries the JSON), figures to the JSON file.
+class Reporter {
+ public:
+  explicit Reporter(const CommonFlags& flags);
+  ~Reporter();
+
+  Reporter(const Reporter&) = delete;
+  Reporter& operator=(const Reporter&) = delete;
+
+  /// A line for the user; silent with --quiet.
+  void say(const std::string& line);
+  /// A line only with --verbose.
+  void detail(const std::string& line);
+  /// A line on standard error that --quiet does not silence: the result may not be what was meant.
+  void warn(const std::string& line);
+
+  /// Draws a bar on standard error if that is a terminal (or with --progress always).
+  ProgressCallback progress();
+
+  /// Writes the figures where --json says.
+  void finish(const nlohmann::ordered_json& figures);
+
+ private:
+  void clear_progress();
+
+  CommonFlags flags_;
+  bool show_progress_ = false;
+  bool progress_on_screen_ = false;
+  std::chrono::steady_clock::time_point started_;
+};
+
+/// Seconds since it was made or last asked for a lap.
+class Stopwatch {
+ public:
+  double lap();
+
+ private:
+  std::chrono::steady_clock::time_point since_ = std::chrono::steady_clock::now();
+};
+
+/// Largest resident memory of this process so far, bytes.
+std::size_t peak_rss_bytes();
+
+/// Runs `nacre` with these arguments; returns the exit status of cli.md: 0 done, 1 a check said no,
+/// 2 wrong use, 3 bad input, 4 cannot do it here.
+int run_nacre(int argc, char** argv);
+
+// The verbs. Each adds itself to the application; its callback sets `status` where it is not 0.
+void add_phantom_verb(CLI::App& app, int& status);
+void add_reference_verb(CLI::App& app, int& status);
+void add_render_verb(CLI::App& app, int& status);
+void add_compare_verb(CLI::App& app, int& status);
+void add_info_verb(CLI::App& app, int& status);
+
+}  // namespace nacre

@@ -1,0 +1,146 @@
+// `nacre compare`: how far one picture is from another.
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "app/command.h"
+#include "core/error.h"
+#include "io/picture_file.h"
+#include "io/png_picture.h"
+#include "report/picture_error.h"
+
+namespace nacre {
+namespace {
+
+using nlohmann::ordered_json;
+
+struct CompareFlags {
+  CommonFlags common;
+  std::string picture;
+  std::string truth;
+  std::string output;
+  std::optional<double> peak;
+  std::optional<double> gain;
+  std::optional<double> max_rmse;
+  std::optional<double> min_psnr;
+  std::string over = "all";
+};
+
+/// 1 for emission; the truth's largest pixel where the unit has no natural peak.
+double default_peak(const PictureFile& truth) {
+  const auto& pixels = truth.image.pixels;
+  const double largest = *std::max_element(pixels.begin(), pixels.end());
+  const bool emission = truth.mode
+                            ? *truth.mode == PictureMode::Max || *truth.mode == PictureMode::Iso
+                            : largest <= 1;
+  return emission || largest <= 0.0 ? 1.0 : largest;
+}
+
+/// JSON knows no infinity: equal pictures have a PSNR of null.
+ordered_json to_json(const PictureError& error) {
+  ordered_json json;
+  json["pixels"] = error.pixels;
+  json["rmse"] = error.rmse;
+  json["psnr_db"] = std::isfinite(error.psnr_db) ? ordered_json(error.psnr_db) : ordered_json();
+  json["max_error"] = error.max_error;
+  json["bias"] = error.bias;
+  return json;
+}
+
+std::string to_line(std::string_view name, const PictureError& error) {
+  return fmt::format(
+      "{:<4} {:>9} pixels   RMSE {:<11.4g} PSNR {:7.2f} dB   max error {:<10.4g} bias {:.2e}", name,
+      error.pixels, error.rmse, error.psnr_db, error.max_error, error.bias);
+}
+
+void write_difference(const CompareFlags& flags, const Image& error, double max_error,
+                      Reporter& reporter) {
+  if (picture_format(flags.output) == PictureFormat::Tiff) {
+    write_measured_picture(error, PictureMode::Max, flags.output);
+    reporter.say(fmt::format("difference (signed, as measured) -> {}", flags.output));
+    return;
+  }
+  const double gain = flags.gain.value_or(max_error > 0.0 ? 1.0 / max_error : 1.0);
+  write_png(difference_picture(error, gain), flags.output);
+  reporter.say(
+      fmt::format("difference, {:.4g} times amplified (red: too bright, blue: too dark) -> {}",
+                  gain, flags.output));
+}
+
+/// Whether the limits are kept; says which is not.
+bool within_limits(const CompareFlags& flags, const PictureError& error, Reporter& reporter) {
+  bool good = true;
+  if (flags.max_rmse && error.rmse > *flags.max_rmse) {
+    reporter.warn(fmt::format("RMSE {:.6g} over {} pixels is past --max-rmse {:.6g}", error.rmse,
+                              flags.over, *flags.max_rmse));
+    good = false;
+  }
+  if (flags.min_psnr && error.psnr_db < *flags.min_psnr) {
+    reporter.warn(fmt::format("PSNR {:.2f} dB over {} pixels is under --min-psnr {:.2f}",
+                              error.psnr_db, flags.over, *flags.min_psnr));
+    good = false;
+  }
+  return good;
+}
+
+int run_compare(const CompareFlags& flags) {
+  Reporter reporter(flags.common);
+  if (!flags.output.empty()) picture_format(flags.output);
+  const PictureFile picture = read_picture(flags.picture);
+  const PictureFile truth = read_picture(flags.truth);
+  if (picture.mode && truth.mode && *picture.mode != *truth.mode) {
+    reporter.warn("the two pictures are of different modes");
+  }
+  const PictureComparison comparison =
+      compare_pictures(picture.image, truth.image, flags.peak.value_or(default_peak(truth)));
+  reporter.say(to_line("lit", comparison.lit));
+  reporter.say(to_line("all", comparison.all));
+  reporter.say(fmt::format("peak {:.6g}; largest error at pixel ({}, {}); lit: where {} is above 0",
+                           comparison.peak, comparison.worst_x, comparison.worst_y, flags.truth));
+  if (!flags.output.empty()) {
+    write_difference(flags, difference(picture.image, truth.image), comparison.all.max_error,
+                     reporter);
+  }
+  const bool good =
+      within_limits(flags, flags.over == "lit" ? comparison.lit : comparison.all, reporter);
+  reporter.finish({{"all", to_json(comparison.all)},
+                   {"lit", to_json(comparison.lit)},
+                   {"peak", comparison.peak},
+                   {"worst_pixel", {comparison.worst_x, comparison.worst_y}},
+                   {"within_limits", good}});
+  return good ? 0 : 1;
+}
+
+}  // namespace
+
+void add_compare_verb(CLI::App& app, int& status) {
+  CLI::App* verb = app.add_subcommand("compare", "The error of a picture against another");
+  verb->footer("Example: nacre compare shells.tif exact.tif -o difference.png --min-psnr 45");
+  auto flags = std::make_shared<CompareFlags>();
+  verb->add_option("PICTURE", flags->picture, "Picture to judge (.tif, or a gray .png)")
+      ->required();
+  verb->add_option("TRUTH", flags->truth, "Picture it is judged against")->required();
+  verb->add_option("-o,--output", flags->output,
+                   "Difference, signed: .png amplified in red and blue, .tif as measured");
+  verb->add_option("--gain", flags->gain,
+                   "Amplification of the difference in the PNG (default: its largest is full)")
+      ->check(CLI::PositiveNumber);
+  verb->add_option("--peak", flags->peak,
+                   "Brightness that PSNR is taken against (default: 1 for max, the truth's largest "
+                   "pixel for sum)")
+      ->check(CLI::PositiveNumber);
+  verb->add_option("--max-rmse", flags->max_rmse, "Exit 1 if the RMSE is past this");
+  verb->add_option("--min-psnr", flags->min_psnr, "Exit 1 if the PSNR (dB) is under this");
+  verb->add_option("--over", flags->over, "Pixels that the limits are for: all or lit")
+      ->check(CLI::IsMember({"all", "lit"}))
+      ->capture_default_str();
+  add_common_flags(*verb, flags->common);
+  verb->callback([flags, &status] { status = run_compare(*flags); });
+}
+
+}  // namespace nacre

@@ -1,0 +1,148 @@
+// `nacre info`: what a file holds.
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <string>
+
+#include "app/command.h"
+#include "app/volume_flags.h"
+#include "core/volume_geometry.h"
+#include "extract/default_window.h"
+
+namespace nacre {
+namespace {
+
+using nlohmann::ordered_json;
+
+struct InfoFlags {
+  CommonFlags common;
+  VolumeFlags volume;
+};
+
+/// Which way an axis runs in the patient: the nearest of L, R, P, A, S, I.
+char direction_letter(const glm::dvec3& axis) {
+  constexpr std::array<std::array<char, 2>, 3> kLetters{{{'R', 'L'}, {'A', 'P'}, {'I', 'S'}}};
+  std::size_t largest = 0;
+  for (int i = 1; i < 3; ++i) {
+    if (std::abs(axis[i]) > std::abs(axis[static_cast<int>(largest)])) {
+      largest = static_cast<std::size_t>(i);
+    }
+  }
+  return kLetters[largest][axis[static_cast<int>(largest)] > 0.0 ? 1 : 0];
+}
+
+std::string orientation(const glm::dmat4& world_from_voxel) {
+  std::string letters;
+  for (int axis = 0; axis < 3; ++axis) {
+    letters += direction_letter(glm::dvec3(world_from_voxel[axis]));
+  }
+  return letters;
+}
+
+struct ValueRange {
+  double least;
+  double greatest;
+};
+
+/// In the volume's values.
+ValueRange value_range(const Volume& volume) {
+  return visit_samples(volume, [&](auto samples) {
+    const auto [least, greatest] = std::minmax_element(samples.begin(), samples.end());
+    const double a = volume.slope * static_cast<double>(*least) + volume.intercept;
+    const double b = volume.slope * static_cast<double>(*greatest) + volume.intercept;
+    return ValueRange{std::min(a, b), std::max(a, b)};
+  });
+}
+
+ordered_json matrix_rows(const glm::dmat4& matrix) {
+  ordered_json rows = ordered_json::array();
+  for (int row = 0; row < 4; ++row) {
+    rows.push_back({matrix[0][row], matrix[1][row], matrix[2][row], matrix[3][row]});
+  }
+  return rows;
+}
+
+ordered_json to_json(const VolumeFile& file, const ValueRange& range, const Window& window) {
+  const Volume& volume = file.volume;
+  const glm::dvec3 spacing = spacing_mm(volume.world_from_voxel);
+  const BoundingSphere sphere = bounding_sphere(volume.dims, volume.world_from_voxel);
+  ordered_json json;
+  json["kind"] = "volume";
+  json["format"] = file.report.format;
+  json["volume"] = {{"dims", {volume.dims.x, volume.dims.y, volume.dims.z}},
+                    {"spacing_mm", {spacing.x, spacing.y, spacing.z}},
+                    {"type", name(volume.type)}};
+  json["slope"] = volume.slope;
+  json["intercept"] = volume.intercept;
+  json["range"] = {range.least, range.greatest};
+  json["default_window"] = {window.lo, window.hi};
+  json["orientation"] = orientation(volume.world_from_voxel);
+  json["frame"] = "LPS, mm";
+  json["world_from_voxel"] = matrix_rows(volume.world_from_voxel);
+  json["center_mm"] = {sphere.center_mm.x, sphere.center_mm.y, sphere.center_mm.z};
+  json["radius_mm"] = sphere.radius_mm;
+  json["bytes"] = volume.samples.size();
+  json["replaced"] = {{"nan", file.report.nan_count},
+                      {"positive_infinity", file.report.positive_infinity_count},
+                      {"negative_infinity", file.report.negative_infinity_count}};
+  json["warnings"] = file.report.warnings;
+  json["peak_rss_bytes"] = peak_rss_bytes();
+  return json;
+}
+
+void say_volume(const VolumeFile& file, const ValueRange& range, const Window& window,
+                Reporter& reporter) {
+  const Volume& volume = file.volume;
+  const glm::dmat4& matrix = volume.world_from_voxel;
+  const glm::dvec3 spacing = spacing_mm(matrix);
+  const BoundingSphere sphere = bounding_sphere(volume.dims, matrix);
+  reporter.say(fmt::format("volume       {}, {} x {} x {} samples of {} ({} bytes)",
+                           file.report.format, volume.dims.x, volume.dims.y, volume.dims.z,
+                           name(volume.type), volume.samples.size()));
+  reporter.say(fmt::format("values       {:.6g} to {:.6g} = {:.6g} * stored + {:.6g}", range.least,
+                           range.greatest, volume.slope, volume.intercept));
+  reporter.say(
+      fmt::format("spacing      {:.6g} x {:.6g} x {:.6g} mm", spacing.x, spacing.y, spacing.z));
+  const std::string letters = orientation(matrix);
+  reporter.say(fmt::format("axes         x to {}, y to {}, z to {}{}{}", letters[0], letters[1],
+                           letters[2], handedness(matrix) < 0.0 ? ", left-handed" : "",
+                           shear_rad(matrix) > 1e-6 ? ", sheared" : ""));
+  reporter.say(fmt::format("centre       {:.6g}, {:.6g}, {:.6g} mm (LPS), radius {:.6g} mm",
+                           sphere.center_mm.x, sphere.center_mm.y, sphere.center_mm.z,
+                           sphere.radius_mm));
+  reporter.say(fmt::format("window       {:.6g},{:.6g} unless --window says otherwise", window.lo,
+                           window.hi));
+  for (int row = 0; row < 3; ++row) {
+    reporter.say(fmt::format("{:<12} {:12.6g} {:12.6g} {:12.6g} {:12.6g}",
+                             row == 0 ? "LPS from ijk" : "", matrix[0][row], matrix[1][row],
+                             matrix[2][row], matrix[3][row]));
+  }
+}
+
+void run_info(const InfoFlags& flags) {
+  Reporter reporter(flags.common);
+  const VolumeFile file = read_volume_of(flags.volume, reporter);
+  const ValueRange range = value_range(file.volume);
+  const Window window = default_window(file.volume);
+  say_volume(file, range, window, reporter);
+  reporter.finish(to_json(file, range, window));
+}
+
+}  // namespace
+
+void add_info_verb(CLI::App& app, int& /*status*/) {
+  CLI::App* verb = app.add_subcommand("info", "What a volume holds");
+  verb->footer("Example: nacre info head.nii.gz --json -");
+  auto flags = std::make_shared<InfoFlags>();
+  verb->add_option("FILE", flags->volume.path, "Volume file, or folder of a DICOM series")
+      ->required();
+  add_volume_reading_flags(*verb, flags->volume);
+  add_common_flags(*verb, flags->common);
+  verb->callback([flags] { run_info(*flags); });
+}
+
+}  // namespace nacre

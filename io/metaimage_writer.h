@@ -1,0 +1,13 @@
+#pragma once
+
+#include <filesystem>
+
+#include "core/volume.h"
+
+namespace nacre {
+
+/// Writes a volume as MetaImage; see volume_writer.h, which chooses the format by the name.
+/// @throws Error  BadArgument or Unsupported
+void write_metaimage(const Volume& volume, const std::filesystem::path& path);
+
+}  // namespace nacre

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "core/camera.h"
+#include "core/image.h"
+#include "core/picture.h"
+#include "core/progress.h"
+#include "reference/exact_walk.h"
+
+namespace nacre {
+
+/// What an exact picture shows.
+struct ExactPictureOptions {
+  PictureMode mode = PictureMode::Max;
+  Slab slab = {};
+};
+
+/// The exact picture of a volume: one ray through each pixel's centre.
+///
+/// max: the emission's maximum along the ray, in [0, 1]. sum: its integral, emission * mm. Pixels
+/// whose ray misses the volume are 0. Uses all cores; the same bytes for any number of threads.
+///
+/// @throws Error  BadArgument for a mode other than Max and Sum, or an empty slab
+Image exact_picture(const ExactWalk& walk, const Camera& camera,
+                    const ExactPictureOptions& options = {}, const ProgressCallback& progress = {});
+
+/// The part of a ray that a camera shows: in front of the eye, and inside the slab.
+RayInterval visible_interval(const Camera& camera, const Ray& ray, const Slab& slab);
+
+}  // namespace nacre

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <limits>
+#include <memory>
+
+#include "core/camera.h"
+#include "core/emission.h"
+#include "core/volume.h"
+
+namespace nacre {
+
+/// The part of a ray that counts, in mm from its origin. Infinite ends are allowed.
+struct RayInterval {
+  double t_begin_mm = -std::numeric_limits<double>::infinity();
+  double t_end_mm = std::numeric_limits<double>::infinity();
+};
+
+/// Exact maximum and integral of a volume's emission along rays.
+///
+/// Between samples the value is trilinear, so along a ray it is a cubic polynomial in each cell:
+/// its maximum lies at the cell's ends or at the roots of a quadratic, its integral is a closed
+/// form, split where it crosses a knot of the emission map (docs/derivations.md, section 2). All in
+/// double; what is left is rounding (about 1e-15 of the volume's range, times the slope of the
+/// map).
+///
+/// Setting up costs one pass over the volume (ranges of 8^3 bricks, which the walk uses to skip
+/// what cannot matter). The volume must outlive this object. Safe to use from many threads.
+class ExactWalk {
+ public:
+  ExactWalk(const Volume& volume, const EmissionMap& emission);
+  ~ExactWalk();
+  ExactWalk(ExactWalk&&) noexcept;
+  ExactWalk& operator=(ExactWalk&&) noexcept;
+
+  /// max { T(value) } over the ray's points inside the volume's box and the interval; 0 where there
+  /// are none. In [0, 1].
+  double max_emission(const Ray& ray, const RayInterval& interval = {}) const;
+
+  /// The largest value itself, in the volume's values; NaN where the ray misses the box.
+  double max_value(const Ray& ray, const RayInterval& interval = {}) const;
+
+  /// Integral of T(value) over distance, emission * mm; 0 where the ray misses the box.
+  double emission_integral(const Ray& ray, const RayInterval& interval = {}) const;
+
+ private:
+  class Walker;
+  template <class T>
+  class TypedWalker;
+  std::unique_ptr<const Walker> walker_;
+};
+
+}  // namespace nacre
