@@ -1,0 +1,84 @@
+#include "render/gl/shell_buffers.h"
+
+#include <GL/glcorearb.h>
+#include <fmt/core.h>
+
+#include <limits>
+
+#include "core/error.h"
+
+namespace nacre {
+
+ShellBuffers::ShellBuffers(const GlFunctions& gl, const ShellSet& set,
+                           std::span<const std::uint32_t> shells)
+    : gl_(&gl),
+      parts_(set.shells.size()),
+      array_(make_vertex_array(gl)),
+      positions_(make_buffer(gl)),
+      triangles_(make_buffer(gl)) {
+  place(set, shells);
+  copy(set);
+}
+
+void ShellBuffers::place(const ShellSet& set, std::span<const std::uint32_t> shells) {
+  constexpr std::size_t kMost = std::numeric_limits<int>::max();
+  for (const std::uint32_t shell : shells) {
+    const TriangleMesh& surface = set.shells.at(shell).surface;
+    Part& part = parts_[shell];
+    if (part.held) continue;
+    if (3 * surface.triangles.size() > kMost || vertices_ > kMost) {
+      throw Error(ErrorCode::Unsupported,
+                  fmt::format("shell {}: found {} triangles, expected {} corners at most",
+                              shell + 1, surface.triangles.size(), kMost));
+    }
+    part = {indices_, static_cast<int>(3 * surface.triangles.size()), static_cast<int>(vertices_),
+            true};
+    indices_ += 3 * surface.triangles.size();
+    vertices_ += surface.positions.size();
+  }
+  bytes_ = vertices_ * sizeof(glm::vec3) + indices_ * sizeof(std::uint32_t);
+}
+
+void ShellBuffers::copy(const ShellSet& set) {
+  gl_->bind_vertex_array(array_.id());
+  gl_->bind_buffer(GL_ARRAY_BUFFER, positions_.id());
+  gl_->buffer_data(GL_ARRAY_BUFFER, static_cast<std::ptrdiff_t>(vertices_ * sizeof(glm::vec3)),
+                   nullptr, GL_STATIC_DRAW);
+  gl_->bind_buffer(GL_ELEMENT_ARRAY_BUFFER, triangles_.id());
+  gl_->buffer_data(GL_ELEMENT_ARRAY_BUFFER,
+                   static_cast<std::ptrdiff_t>(indices_ * sizeof(std::uint32_t)), nullptr,
+                   GL_STATIC_DRAW);
+  check_gl(*gl_, "room for the shells");
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    if (!parts_[i].held) continue;
+    const TriangleMesh& surface = set.shells[i].surface;
+    const auto bytes = [](const auto& list) {
+      return static_cast<std::ptrdiff_t>(list.size() * sizeof(list[0]));
+    };
+    gl_->buffer_sub_data(GL_ARRAY_BUFFER,
+                         static_cast<std::ptrdiff_t>(
+                             static_cast<std::size_t>(parts_[i].base_vertex) * sizeof(glm::vec3)),
+                         bytes(surface.positions), surface.positions.data());
+    gl_->buffer_sub_data(GL_ELEMENT_ARRAY_BUFFER,
+                         static_cast<std::ptrdiff_t>(parts_[i].first_index * sizeof(std::uint32_t)),
+                         bytes(surface.triangles), surface.triangles.data());
+  }
+  gl_->enable_vertex_attrib_array(0);
+  gl_->vertex_attrib_pointer(0, 3, GL_FLOAT, GL_FALSE, 0, nullptr);
+  check_gl(*gl_, "copying the shells");
+}
+
+bool ShellBuffers::holds(std::uint32_t shell) const {
+  return shell < parts_.size() && parts_[shell].held;
+}
+
+void ShellBuffers::bind() const { gl_->bind_vertex_array(array_.id()); }
+
+void ShellBuffers::draw(std::uint32_t shell) const {
+  const Part& part = parts_[shell];
+  const std::uintptr_t offset = part.first_index * sizeof(std::uint32_t);
+  gl_->draw_elements_base_vertex(GL_TRIANGLES, part.index_count, GL_UNSIGNED_INT,
+                                 reinterpret_cast<const void*>(offset), part.base_vertex);
+}
+
+}  // namespace nacre

@@ -1,0 +1,14 @@
+# Fails if a program that draws is linked to a GL library: they are loaded at run time.
+# Run as: cmake -D OBJDUMP=<objdump> -D PROGRAM=<file> -P check_no_gl_linked.cmake
+cmake_minimum_required(VERSION 3.25)
+
+execute_process(COMMAND ${OBJDUMP} -p ${PROGRAM} OUTPUT_VARIABLE headers COMMAND_ERROR_IS_FATAL ANY)
+string(REGEX MATCHALL "NEEDED +[^\n]+" needed "${headers}")
+if(NOT needed)
+  message(FATAL_ERROR "Found no needed library in ${PROGRAM}")
+endif()
+foreach(library IN LISTS needed)
+  if(library MATCHES "lib(EGL|GL|GLX|OpenGL|GLESv2|OSMesa)\\.so")
+    message(FATAL_ERROR "${PROGRAM} is linked: ${library}")
+  endif()
+endforeach()
