@@ -4,68 +4,49 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
-#include <limits>
-#include <memory>
 #include <span>
-#include <utility>
 #include <vector>
+
+#include "extract/chunk_arena.h"
 
 namespace nacre {
 
-/// Elements appended one after the other, in chunks: nothing moves while it grows, and a chunk is
-/// given back as soon as it has been copied out.
+/// Elements appended one after the other, in chunks of an arena: nothing moves while it grows.
 template <class Element>
 class ChunkedStream {
  public:
   /// Room for `count` more elements, at most `kFirstChunk`; `commit` says how many were written.
-  Element* room(std::size_t count) {
-    if (static_cast<std::size_t>(end_ - cursor_) < count) add_chunk();
+  Element* room(std::size_t count, ChunkArena& arena) {
+    if (static_cast<std::size_t>(end_ - cursor_) < count) add_chunk(arena);
     return cursor_;
   }
   void commit(std::size_t count) { cursor_ += count; }
 
   std::size_t size() const {
     std::size_t sum = static_cast<std::size_t>(cursor_ - begin_);
-    for (const Chunk& chunk : full_) sum += chunk.size;
+    for (const std::span<Element> chunk : full_) sum += chunk.size();
     return sum;
   }
 
-  /// Calls `function(std::span<Element>)` with each chunk in order, freeing it afterwards.
+  /// Calls `function(std::span<Element>)` with each chunk in order.
   template <class Function>
-  void drain(Function&& function) {
-    close_chunk();
-    for (Chunk& chunk : full_) {
-      function(std::span<Element>(chunk.elements.get(), chunk.size));
-      chunk.elements.reset();
-    }
-    full_.clear();
+  void for_each_chunk(Function&& function) {
+    for (const std::span<Element> chunk : full_) function(chunk);
+    function(std::span<Element>(begin_, cursor_));
   }
 
  private:
-  static constexpr std::size_t kFirstChunk = 256;
-  static constexpr std::size_t kLargestChunk = std::size_t{1} << 14;
+  static constexpr std::size_t kFirstChunk = 64;
+  static constexpr std::size_t kLargestChunk = 4096;
 
-  struct Chunk {
-    std::unique_ptr<Element[]> elements;
-    std::size_t size = 0;
-  };
-
-  void close_chunk() {
-    if (!current_) return;
-    full_.push_back({std::move(current_), static_cast<std::size_t>(cursor_ - begin_)});
-    begin_ = cursor_ = end_ = nullptr;
-  }
-
-  void add_chunk() {
-    close_chunk();
-    current_ = std::make_unique_for_overwrite<Element[]>(next_chunk_);
-    begin_ = cursor_ = current_.get();
+  void add_chunk(ChunkArena& arena) {
+    if (begin_ != nullptr) full_.emplace_back(begin_, cursor_);
+    begin_ = cursor_ = static_cast<Element*>(arena.allocate(next_chunk_ * sizeof(Element)));
     end_ = begin_ + next_chunk_;
     next_chunk_ = std::min(2 * next_chunk_, kLargestChunk);
   }
 
-  std::vector<Chunk> full_;
-  std::unique_ptr<Element[]> current_;
+  std::vector<std::span<Element>> full_;
   Element* begin_ = nullptr;
   Element* cursor_ = nullptr;
   Element* end_ = nullptr;
@@ -84,14 +65,24 @@ struct LevelOutput {
   std::uint64_t top_begin = 0;     ///< first vertex of the highest slice
 
   std::uint32_t new_vertex() { return static_cast<std::uint32_t>(next_vertex++); }
-
-  void write_position(const glm::dvec3& position_mm) {
-    *positions.room(1) = glm::vec3(position_mm);
-    positions.commit(1);
-  }
 };
 
-/// All levels' surfaces of one slab.
-using SlabOutput = std::vector<LevelOutput>;
+/// All levels' surfaces of one slab, and the memory they lie in.
+struct SlabOutput {
+  explicit SlabOutput(std::size_t level_count = 0) : levels(level_count) {}
+
+  void write_position(std::size_t k, const glm::dvec3& position_mm) {
+    *levels[k].positions.room(1, arena) = glm::vec3(position_mm);
+    levels[k].positions.commit(1);
+  }
+
+  void write_triangle(std::size_t k, const glm::uvec3& triangle) {
+    *levels[k].triangles.room(1, arena) = triangle;
+    levels[k].triangles.commit(1);
+  }
+
+  std::vector<LevelOutput> levels;
+  ChunkArena arena;
+};
 
 }  // namespace nacre
