@@ -1,27 +1,69 @@
-// `nacre render`: a picture of a volume.
+// `nacre render`: a picture of a shell set or of a volume.
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <memory>
 #include <string>
 
 #include "app/exact_command.h"
+#include "app/shell_render.h"
+#include "core/error.h"
 
 namespace nacre {
+namespace {
+
+struct RenderFlags {
+  ExactFlags exact;
+  DrawFlags draw;
+  ShellFlags shells;
+  std::string method = "auto";
+  bool list_backends = false;
+};
+
+void run_render(const RenderFlags& flags) {
+  if (flags.list_backends) {
+    say_backends();
+    return;
+  }
+  const std::string& input = flags.exact.volume.path;
+  if (input.empty()) {
+    throw Error(ErrorCode::BadArgument, "render: found no INPUT, expected a shell set or a volume");
+  }
+  if (std::filesystem::path(input).extension() == ".glb") {
+    if (flags.method == "exact") {
+      throw Error(
+          ErrorCode::BadArgument,
+          fmt::format("{}: found a shell set, expected a volume for --method exact", input));
+    }
+    run_shell_file(flags.exact, flags.draw);
+  } else if (flags.method == "shells") {
+    run_shells_of_volume(flags.exact, flags.draw, flags.shells);
+  } else {
+    // For one picture of a volume at hand the exact walk is done before shells are built.
+    run_exact(flags.exact);
+  }
+}
+
+}  // namespace
 
 void add_render_verb(CLI::App& app, int& /*status*/) {
-  CLI::App* verb = app.add_subcommand("render", "A picture of a volume");
-  verb->footer("Example: nacre render head.nii.gz --window 20,230 --azimuth 30 -o head.png");
-  auto flags = std::make_shared<ExactFlags>();
-  auto method = std::make_shared<std::string>("auto");
-  verb->add_option("INPUT", flags->volume.path, "Volume file, or folder of a DICOM series")
-      ->required();
-  verb->add_option("--method", *method, "How a volume is shown: exact walks its rays")
-      ->check(CLI::IsMember({"auto", "exact"}))
+  CLI::App* verb = app.add_subcommand("render", "A picture of a shell set or of a volume");
+  verb->footer("Example: nacre render head.glb --azimuth 30 -o head.png");
+  auto flags = std::make_shared<RenderFlags>();
+  verb->add_option("INPUT", flags->exact.volume.path,
+                   "Shell set (.glb), volume file, or folder of a DICOM series");
+  verb->add_option("--method", flags->method,
+                   "How a volume is shown: shells built in memory, or the exact walk of its rays "
+                   "(auto: exact)")
+      ->check(CLI::IsMember({"auto", "shells", "exact"}))
       ->capture_default_str();
-  add_exact_flags(*verb, *flags);
-  // `method` has one meaning so far; the parser still writes to it, so it must live on.
-  verb->callback([flags, method] { run_exact(*flags); });
+  verb->add_flag("--list-backends", flags->list_backends,
+                 "Name the OpenGL contexts of this machine");
+  add_draw_flags(*verb, flags->draw);
+  add_shell_flags(*verb, flags->shells);
+  add_exact_flags(*verb, flags->exact);
+  verb->callback([flags] { run_render(*flags); });
 }
 
 }  // namespace nacre

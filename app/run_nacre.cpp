@@ -67,6 +67,7 @@ int run_nacre(int argc, char** argv) {
   int status = 0;
 
   add_phantom_verb(app, status);
+  add_build_verb(app, status);
   add_render_verb(app, status);
   add_reference_verb(app, status);
   add_compare_verb(app, status);

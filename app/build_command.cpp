@@ -1,0 +1,113 @@
+// `nacre build`: a volume becomes a shell set.
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+
+#include "app/shell_building.h"
+#include "app/thread_limit.h"
+#include "core/error.h"
+#include "core/volume_geometry.h"
+#include "io/shell_writer.h"
+
+namespace nacre {
+namespace {
+
+using nlohmann::ordered_json;
+
+struct BuildFlags {
+  CommonFlags common;
+  VolumeFlags volume;
+  ShellFlags shells;
+  std::string output;
+};
+
+ordered_json level_list(const ShellSet& set) {
+  ordered_json levels = ordered_json::array();
+  for (const Shell& shell : set.shells) {
+    levels.push_back({{"emission", shell.emission},
+                      {"value", shell.value},
+                      {"representative", shell.representative},
+                      {"triangles", shell.surface.triangles.size()},
+                      {"vertices", shell.surface.positions.size()}});
+  }
+  return levels;
+}
+
+std::size_t triangle_count(const ShellSet& set) {
+  std::size_t triangles = 0;
+  for (const Shell& shell : set.shells) triangles += shell.surface.triangles.size();
+  return triangles;
+}
+
+void check_name(const std::string& output) {
+  if (std::filesystem::path(output).extension() == ".glb") return;
+  throw Error(ErrorCode::BadArgument,
+              fmt::format("{}: found another ending, expected .glb", output));
+}
+
+void run_build(const BuildFlags& flags) {
+  Reporter reporter(flags.common);
+  const ThreadLimit limit(flags.common);
+  check_name(flags.output);
+  Stopwatch total;
+  Stopwatch watch;
+  const EmissionVolume input = read_emission_volume(flags.volume, reporter);
+  const double reading = watch.lap();
+  BuildFigures figures;
+  const ShellSet set = build_shell_set(flags.shells, input, reporter, figures);
+  watch.lap();
+  const std::vector<std::byte> bytes = encode_shell_set(set, {.progress = reporter.progress()});
+  const double encoding = watch.lap();
+  write_shell_file(flags.output, bytes);
+  const double writing = watch.lap();
+
+  const std::size_t triangles = triangle_count(set);
+  reporter.say(fmt::format("{} shells, {} triangles, {} bytes -> {}", set.shells.size(), triangles,
+                           bytes.size(), flags.output));
+  for (const Shell& shell : set.shells) {
+    reporter.detail(fmt::format(
+        "  emission {:.4f}  value {:<10.6g} shown as {:.4f}  {:>9} triangles", shell.emission,
+        shell.value, shell.representative, shell.surface.triangles.size()));
+  }
+  const Volume& volume = input.volume;
+  const glm::dvec3 spacing = spacing_mm(volume.world_from_voxel);
+  ordered_json json;
+  json["volume"] = {{"dims", {volume.dims.x, volume.dims.y, volume.dims.z}},
+                    {"spacing_mm", {spacing.x, spacing.y, spacing.z}},
+                    {"type", name(volume.type)}};
+  json["window"] = {input.emission.lo(), input.emission.hi()};
+  json["placement"] = set.placement;
+  json["levels"] = level_list(set);
+  json["extracted_triangles"] = figures.extracted_triangles;
+  json["triangles"] = triangles;
+  json["bytes"] = bytes.size();
+  json["seconds"] = {{"read", reading},
+                     {"emission", figures.emission},
+                     {"extract", figures.extract},
+                     {"simplify", figures.simplify},
+                     {"encode", encoding},
+                     {"write", writing},
+                     {"total", total.lap()}};
+  json["peak_rss_bytes"] = peak_rss_bytes();
+  reporter.finish(json);
+}
+
+}  // namespace
+
+void add_build_verb(CLI::App& app, int& /*status*/) {
+  CLI::App* verb = app.add_subcommand("build", "A volume becomes a shell set (.glb)");
+  verb->footer("Example: nacre build head.nii.gz --window 20,230 --levels 48 -o head.glb");
+  auto flags = std::make_shared<BuildFlags>();
+  verb->add_option("VOLUME", flags->volume.path, "Volume file, or folder of a DICOM series")
+      ->required();
+  verb->add_option("-o,--output", flags->output, "Shell set, .glb")->required();
+  add_shell_flags(*verb, flags->shells);
+  add_volume_reading_flags(*verb, flags->volume);
+  add_emission_flags(*verb, flags->volume);
+  add_common_flags(*verb, flags->common);
+  verb->callback([flags] { run_build(*flags); });
+}
+
+}  // namespace nacre

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <string>
+
+#include "app/command.h"
+#include "app/volume_flags.h"
+#include "core/shell_set.h"
+
+namespace nacre {
+
+/// Which shells to make of a volume, as flags say it.
+struct ShellFlags {
+  std::string levels = "24";  ///< a count, or emissions "t1,t2,..."
+  std::string level_values;   ///< "v1,v2,..." in the volume's values
+  std::string placement = "uniform";
+  double tolerance = 0.0;     ///< emission; 0: none
+  double tolerance_mm = 0.0;  ///< mm; 0: none
+  int quantization = 0;       ///< bits; 0: chosen
+};
+
+/// Adds --levels, --level-values, --placement, --tolerance, --tolerance-mm and --quantization.
+void add_shell_flags(CLI::App& verb, ShellFlags& flags);
+
+/// What building took, in seconds, and how many triangles there were before simplification.
+struct BuildFigures {
+  double emission = 0.0;
+  double extract = 0.0;
+  double simplify = 0.0;
+  std::size_t extracted_triangles = 0;
+};
+
+/// Shells of a volume, in memory.
+/// @throws Error  BadArgument for flags that name no levels; Unsupported in a build without the
+///                shell tools
+ShellSet build_shell_set(const ShellFlags& flags, const EmissionVolume& input, Reporter& reporter,
+                         BuildFigures& figures);
+
+}  // namespace nacre

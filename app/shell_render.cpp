@@ -1,0 +1,264 @@
+// `nacre render` for shells: plan, decode what is drawn, upload, draw.
+#include "app/shell_render.h"
+
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <numbers>
+#include <set>
+#include <vector>
+
+#include "app/flag_values.h"
+#include "app/thread_limit.h"
+#include "core/error.h"
+#include "core/volume_geometry.h"
+#include "io/shell_reader.h"
+#include "render/gl/gl_renderer.h"
+
+namespace nacre {
+namespace {
+
+using nlohmann::ordered_json;
+
+struct Timing {
+  double load = 0.0;
+  double plan = 0.0;
+  double upload = 0.0;
+  std::vector<double> frames;
+  double write = 0.0;
+};
+
+/// What is to be drawn, from where: all that is known before anything is decoded.
+struct Views {
+  std::vector<Camera> cameras;
+  RenderOptions options;
+};
+
+/// Shell numbers, counted from 1, as indices.
+std::vector<std::uint32_t> shell_indices(std::string_view flag, const std::string& text,
+                                         std::size_t shells) {
+  std::vector<std::uint32_t> indices;
+  for (const long long number : parse_integers(flag, text, 0, "shell numbers K,K,...")) {
+    if (number < 1 || number > static_cast<long long>(shells)) {
+      throw Error(ErrorCode::BadArgument,
+                  fmt::format("{}: found shell {}, expected 1 to {}", flag, number, shells));
+    }
+    indices.push_back(static_cast<std::uint32_t>(number - 1));
+  }
+  return indices;
+}
+
+std::vector<std::uint32_t> hidden_shells(const DrawFlags& draw, std::size_t shells) {
+  if (!draw.hide.empty()) return shell_indices("--hide", draw.hide, shells);
+  if (draw.only.empty()) return {};
+  const std::vector<std::uint32_t> shown = shell_indices("--only", draw.only, shells);
+  std::vector<std::uint32_t> hidden;
+  for (std::uint32_t shell = 0; shell < shells; ++shell) {
+    if (std::find(shown.begin(), shown.end(), shell) == shown.end()) hidden.push_back(shell);
+  }
+  return hidden;
+}
+
+Backend backend_of(const DrawFlags& draw) {
+  if (const auto found = backend(draw.backend)) return *found;
+  throw Error(ErrorCode::BadArgument,
+              fmt::format("--backend: found '{}', expected auto, egl or osmesa", draw.backend));
+}
+
+Views views_of(const ExactFlags& flags, const DrawFlags& draw, const VolumeFacts& volume,
+               std::size_t shells) {
+  Views views;
+  views.options.mode = picture_mode(flags.picture);
+  views.options.slab = slab(flags.camera);
+  views.options.hidden = hidden_shells(draw, shells);
+  const auto depth = depth_format(draw.depth_buffer);
+  if (!depth) {
+    throw Error(
+        ErrorCode::BadArgument,
+        fmt::format("--depth-buffer: found '{}', expected 16, 24 or 32f", draw.depth_buffer));
+  }
+  views.options.depth = *depth;
+  const BoundingSphere sphere = bounding_sphere(volume.dims, volume.world_from_voxel);
+  CameraOptions camera = camera_options(flags.camera);
+  const double start = camera.azimuth_rad;
+  const int count = std::max(flags.camera.turntable, 1);
+  for (int view = 0; view < count; ++view) {
+    camera.azimuth_rad = start + 2.0 * std::numbers::pi * view / count;
+    views.cameras.push_back(make_camera(camera, sphere));
+  }
+  return views;
+}
+
+/// All that the plans of all views draw, ascending.
+std::vector<std::uint32_t> drawn_in_any(const std::vector<Plan>& plans) {
+  std::set<std::uint32_t> drawn;
+  for (const Plan& plan : plans) {
+    for (const std::uint32_t shell : shells_drawn(plan)) drawn.insert(shell);
+  }
+  return {drawn.begin(), drawn.end()};
+}
+
+void say_plan(const Plan& plan, Reporter& reporter) {
+  for (const Pass& pass : plan.passes) reporter.say("draws    " + describe(pass));
+  if (plan.passes.empty()) reporter.say("draws    nothing: the picture is black");
+  for (const LeftOut& left : plan.left_out) {
+    reporter.say(fmt::format("left out {}: {}", left.what, left.why));
+  }
+}
+
+ordered_json figures_of(const GlRenderer& renderer, const ExactFlags& flags, const Plan& plan,
+                        const Image& image, const Timing& timing) {
+  ordered_json json;
+  json["backend"] = name(renderer.info().backend);
+  json["renderer"] = renderer.info().renderer;
+  json["mode"] = flags.picture.mode;
+  json["picture"] = {{"width", image.width}, {"height", image.height}};
+  json["passes"] = ordered_json::array();
+  for (const Pass& pass : plan.passes) json["passes"].push_back(describe(pass));
+  json["left_out"] = ordered_json::array();
+  for (const LeftOut& left : plan.left_out) {
+    json["left_out"].push_back({{"what", left.what}, {"why", left.why}});
+  }
+  json["triangles_drawn"] = renderer.last_frame().triangles;
+  json["uploaded_bytes"] = renderer.uploaded_bytes();
+  json["seconds"] = {{"load", timing.load},
+                     {"plan", timing.plan},
+                     {"upload", timing.upload},
+                     {"frames", timing.frames},
+                     {"write", timing.write}};
+  json["peak_rss_bytes"] = peak_rss_bytes();
+  return json;
+}
+
+/// Draws all views and writes their pictures.
+void draw_views(GlRenderer& renderer, const ExactFlags& flags, const DrawFlags& draw,
+                const Views& views, const std::vector<Plan>& plans, Timing timing,
+                Reporter& reporter) {
+  if (draw.explain) say_plan(plans.front(), reporter);
+  Stopwatch watch;
+  Image image;
+  for (std::size_t view = 0; view < plans.size(); ++view) {
+    image = renderer.render(views.cameras[view], plans[view]);
+    timing.frames.push_back(renderer.last_frame().seconds);
+    if (flags.picture.output.empty()) continue;
+    watch.lap();
+    write_picture(image, flags.picture,
+                  numbered_name(flags.picture.output, static_cast<int>(view)));
+    timing.write += watch.lap();
+  }
+  std::vector<double> sorted = timing.frames;
+  std::sort(sorted.begin(), sorted.end());
+  reporter.say(fmt::format("{} {} of {} x {} pixels, {:.1f} ms a frame, {} triangles ({}: {}){}{}",
+                           plans.size(), plans.size() == 1 ? "picture" : "pictures", image.width,
+                           image.height, 1e3 * sorted[sorted.size() / 2],
+                           renderer.last_frame().triangles, name(renderer.info().backend),
+                           renderer.info().renderer, flags.picture.output.empty() ? "" : " -> ",
+                           flags.picture.output));
+  reporter.finish(figures_of(renderer, flags, plans.back(), image, timing));
+}
+
+std::vector<Plan> plans_for(const SceneFacts& facts, const Views& views,
+                            const GlRenderer& renderer) {
+  std::vector<Plan> plans;
+  for (const Camera& camera : views.cameras) {
+    plans.push_back(make_plan(facts, camera, views.options, renderer.capabilities()));
+  }
+  return plans;
+}
+
+/// A file's facts, without decoding it.
+SceneFacts facts_of(const ShellFileInfo& info) {
+  SceneFacts facts;
+  facts.center_mm = info.set.center_mm;
+  for (std::size_t i = 0; i < info.levels.size(); ++i) {
+    const ShellFileLevel& level = info.levels[i];
+    facts.shells.push_back({info.set.shells[i].representative,
+                            level.triangles,
+                            {glm::dvec3(level.lo_mm), glm::dvec3(level.hi_mm)}});
+  }
+  return facts;
+}
+
+}  // namespace
+
+void add_draw_flags(CLI::App& verb, DrawFlags& flags) {
+  const std::string group = "Drawing shells";
+  verb.add_option("--backend", flags.backend, "auto, egl or osmesa")
+      ->capture_default_str()
+      ->group(group);
+  verb.add_option("--depth-buffer", flags.depth_buffer, "16, 24 or 32f")
+      ->capture_default_str()
+      ->group(group);
+  auto* hide = verb.add_option("--hide", flags.hide,
+                               "K,K,...: shells not shown, counted from 1, outermost first")
+                   ->group(group);
+  verb.add_option("--only", flags.only, "K,K,...: the only shells shown")
+      ->excludes(hide)
+      ->group(group);
+  verb.add_flag("--explain", flags.explain, "Print what is drawn and what is left out, and why")
+      ->group(group);
+}
+
+void run_shell_file(const ExactFlags& flags, const DrawFlags& draw) {
+  Reporter reporter(flags.common);
+  const ThreadLimit limit(flags.common);
+  check_output(flags.picture, flags.camera);
+  const Backend wanted_backend = backend_of(draw);
+  Timing timing;
+  Stopwatch watch;
+  const ShellFileInfo info = read_shell_file_info(flags.volume.path);
+  const Views views = views_of(flags, draw, info.set.volume, info.levels.size());
+  timing.load = watch.lap();
+  GlRenderer renderer(wanted_backend);
+  timing.upload = watch.lap();
+  const SceneFacts facts = facts_of(info);
+  const std::vector<Plan> plans = plans_for(facts, views, renderer);
+  const std::vector<std::uint32_t> drawn = drawn_in_any(plans);
+  timing.plan = watch.lap();
+  const ShellSet set = read_shell_set(
+      flags.volume.path,
+      {.wanted =
+           [&](std::size_t shell) { return std::binary_search(drawn.begin(), drawn.end(), shell); },
+       .progress = reporter.progress()});
+  timing.load += watch.lap();
+  renderer.upload(set, facts, drawn);
+  timing.upload += watch.lap();
+  draw_views(renderer, flags, draw, views, plans, timing, reporter);
+}
+
+void run_shells_of_volume(const ExactFlags& flags, const DrawFlags& draw,
+                          const ShellFlags& shells) {
+  Reporter reporter(flags.common);
+  const ThreadLimit limit(flags.common);
+  check_output(flags.picture, flags.camera);
+  const Backend wanted_backend = backend_of(draw);
+  Timing timing;
+  Stopwatch watch;
+  const EmissionVolume input = read_emission_volume(flags.volume, reporter);
+  BuildFigures figures;
+  const ShellSet set = build_shell_set(shells, input, reporter, figures);
+  const Views views = views_of(flags, draw, set.volume, set.shells.size());
+  timing.load = watch.lap();
+  GlRenderer renderer(wanted_backend);
+  timing.upload = watch.lap();
+  const SceneFacts facts = scene_facts(set);
+  const std::vector<Plan> plans = plans_for(facts, views, renderer);
+  timing.plan = watch.lap();
+  renderer.upload(set, facts, drawn_in_any(plans));
+  timing.upload += watch.lap();
+  draw_views(renderer, flags, draw, views, plans, timing, reporter);
+}
+
+void say_backends() {
+  const BackendList list = list_backends();
+  for (const BackendInfo& info : list.working) {
+    fmt::print("{:<7} {:<12} {:<9} {} ({})\n", name(info.backend), info.platform,
+               info.software ? "software" : "hardware", info.renderer, info.version);
+  }
+  for (const LeftOut& left : list.not_working) {
+    fmt::print("{:<20} not here: {}\n", left.what, left.why);
+  }
+}
+
+}  // namespace nacre

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+
+#include "app/exact_command.h"
+#include "app/shell_building.h"
+
+namespace nacre {
+
+/// How shells are drawn, as flags say it.
+struct DrawFlags {
+  std::string backend = "auto";
+  std::string depth_buffer = "32f";
+  std::string hide;  ///< shells, counted from 1, outermost first
+  std::string only;
+  bool explain = false;
+};
+
+/// Adds --backend, --depth-buffer, --hide, --only and --explain.
+void add_draw_flags(CLI::App& verb, DrawFlags& flags);
+
+/// Draws a shell set file: plans, decodes and uploads what the plan draws, renders.
+void run_shell_file(const ExactFlags& flags, const DrawFlags& draw);
+
+/// The same for a volume, whose shells are built in memory.
+void run_shells_of_volume(const ExactFlags& flags, const DrawFlags& draw, const ShellFlags& shells);
+
+/// Prints the contexts that open on this machine, and those that do not with the reason.
+void say_backends();
+
+}  // namespace nacre
