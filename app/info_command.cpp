@@ -18,6 +18,8 @@ namespace {
 
 using nlohmann::ordered_json;
 
+constexpr double kShearSaid = 0.001;  // radians; float matrices are sheared by 1e-6
+
 struct InfoFlags {
   CommonFlags common;
   VolumeFlags volume;
@@ -110,7 +112,7 @@ void say_volume(const VolumeFile& file, const ValueRange& range, const Window& w
   const std::string letters = orientation(matrix);
   reporter.say(fmt::format("axes         x to {}, y to {}, z to {}{}{}", letters[0], letters[1],
                            letters[2], handedness(matrix) < 0.0 ? ", left-handed" : "",
-                           shear_rad(matrix) > 1e-6 ? ", sheared" : ""));
+                           shear_rad(matrix) > kShearSaid ? ", sheared" : ""));
   reporter.say(fmt::format("centre       {:.6g}, {:.6g}, {:.6g} mm (LPS), radius {:.6g} mm",
                            sphere.center_mm.x, sphere.center_mm.y, sphere.center_mm.z,
                            sphere.radius_mm));

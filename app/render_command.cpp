@@ -20,7 +20,8 @@ void add_render_verb(CLI::App& app, int& /*status*/) {
       ->check(CLI::IsMember({"auto", "exact"}))
       ->capture_default_str();
   add_exact_flags(*verb, *flags);
-  verb->callback([flags] { run_exact(*flags); });
+  // `method` has one meaning so far; the parser still writes to it, so it must live on.
+  verb->callback([flags, method] { run_exact(*flags); });
 }
 
 }  // namespace nacre

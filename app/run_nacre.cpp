@@ -30,6 +30,18 @@ int complain(const std::string& message, int status) {
   return status;
 }
 
+/// What is wrong, in words of this command where the parser's do not name it.
+std::string parse_failure(const CLI::App& app, const CLI::ParseError& error, int argc,
+                          char** argv) {
+  const bool verb_unknown = argc > 1 && argv[1][0] != '-' && app.get_subcommands().empty();
+  if (!verb_unknown) return std::string(error.what()) + " (see nacre -h)";
+  std::string verbs;
+  for (const CLI::App* verb : app.get_subcommands({})) {
+    verbs += (verbs.empty() ? "" : ", ") + verb->get_name();
+  }
+  return fmt::format("{}: found no such verb, expected {}", argv[1], verbs);
+}
+
 /// Parses, which runs the verb's callback. Help and version are no errors.
 int parse_and_run(CLI::App& app, int argc, char** argv, const int& status) {
   try {
@@ -38,7 +50,7 @@ int parse_and_run(CLI::App& app, int argc, char** argv, const int& status) {
   } catch (const CLI::Success& wish) {
     return app.exit(wish);
   } catch (const CLI::ParseError& error) {
-    return complain(std::string(error.what()) + " (see nacre -h)", kWrongUse);
+    return complain(parse_failure(app, error, argc, argv), kWrongUse);
   }
 }
 
@@ -54,6 +66,7 @@ int run_nacre(int argc, char** argv) {
   app.get_formatter()->column_width(34);
   int status = 0;
 
+  add_phantom_verb(app, status);
   add_render_verb(app, status);
   add_reference_verb(app, status);
   add_compare_verb(app, status);

@@ -23,7 +23,7 @@ namespace {
 constexpr double kLargestValue = 4095.0;  // twelve bits
 
 /// Beyond this many point spreads from its wall a vessel does not show.
-constexpr double kReach_spreads = 3.5;
+constexpr double kReachSpreads = 3.5;
 
 constexpr std::uint64_t kNoiseSalt = 0x6e6f6973;
 
@@ -71,7 +71,7 @@ DrawnSegment prepared(const VesselSegment& shape, double spread_mm) {
   drawn.from_brightness = blood_brightness(shape.from_radius_mm);
   drawn.to_brightness = blood_brightness(shape.to_radius_mm);
   const double reach_mm =
-      std::max(shape.from_radius_mm, shape.to_radius_mm) + kReach_spreads * spread_mm;
+      std::max(shape.from_radius_mm, shape.to_radius_mm) + kReachSpreads * spread_mm;
   drawn.lo_mm = glm::min(shape.from_mm, shape.to_mm) - reach_mm;
   drawn.hi_mm = glm::max(shape.from_mm, shape.to_mm) + reach_mm;
   return drawn;
@@ -86,7 +86,7 @@ double with_blood(const DrawnSegment& drawn, const glm::dvec3& p_mm, double tiss
   const auto at = [&](double from, double to) { return from + along * (to - from); };
   const double radius_mm = at(drawn.shape.from_radius_mm, drawn.shape.to_radius_mm);
   const double distance_mm = glm::length(offset_mm - along * drawn.axis_mm);
-  if (distance_mm > radius_mm + kReach_spreads * spread_mm) return tissue;
+  if (distance_mm > radius_mm + kReachSpreads * spread_mm) return tissue;
   const double coverage = at(drawn.from_roundness, drawn.to_roundness) *
                           slab_coverage(distance_mm, radius_mm, spread_mm);
   return tissue + (at(drawn.from_brightness, drawn.to_brightness) - tissue) * coverage;
@@ -128,7 +128,7 @@ Scan prepare_scan(const AngiogramOptions& options, const glm::dmat4& world_from_
             .segments = {},
             .segments_of_slice = {}};
   const glm::dvec3& edge = scan.spacing_mm;
-  scan.spread_mm = kPointSpread_voxels * portable_cbrt(edge.x * edge.y * edge.z);
+  scan.spread_mm = kPointSpreadVoxels * portable_cbrt(edge.x * edge.y * edge.z);
   scan.segments_of_slice.resize(static_cast<std::size_t>(scan.size.z));
   for (const VesselSegment& segment : vessel_segments(make_cerebral_arteries(options.seed))) {
     const DrawnSegment drawn = prepared(segment, scan.spread_mm);
@@ -210,7 +210,7 @@ double rician_magnitude(double signal, double sigma, std::uint64_t seed, std::ui
 
 Volume make_angiogram(const AngiogramOptions& options, const ProgressCallback& progress) {
   Volume volume = make_volume(options.size, ScalarType::I16);
-  volume.world_from_voxel = centered_grid(options.size, kAngiogramExtent_mm);
+  volume.world_from_voxel = centered_grid(options.size, kAngiogramExtentMm);
   ProgressMeter meter(progress, "phantom", static_cast<std::size_t>(options.size.z));
   const Scan scan = prepare_scan(options, volume.world_from_voxel);
   const std::span<std::int16_t> samples = samples_as<std::int16_t>(volume);

@@ -16,10 +16,10 @@ struct AngiogramOptions {
 };
 
 /// Field of view, mm: 0.7 x 0.7 x 0.8 mm a voxel by default.
-inline constexpr glm::dvec3 kAngiogramExtent_mm{179.2, 179.2, 99.2};
+inline constexpr glm::dvec3 kAngiogramExtentMm{179.2, 179.2, 99.2};
 
 /// Width of the scanner's point spread, the standard deviation of a Gaussian, in mean voxel edges.
-inline constexpr double kPointSpread_voxels = 0.45;
+inline constexpr double kPointSpreadVoxels = 0.45;
 
 /// A magnetic resonance angiogram of the arteries of make_cerebral_arteries(), in a head's tissue:
 /// i16, 0 to 4095.
@@ -39,8 +39,9 @@ Volume make_angiogram(const AngiogramOptions& options, const ProgressCallback& p
 ///     c = (1 - e^(-r^2 / 2 s^2)) / erf(r / sqrt(2) s)
 ///         * (erf((r - d) / sqrt(2) s) + erf((r + d) / sqrt(2) s)) / 2
 ///
-/// Exact for a straight vessel on its axis (d = 0, the first factor times erf: a disc under a
-/// Gaussian), in the limit of a thick one (a plane wall) and of a thin one (a Gaussian line).
+/// (docs/derivations.md, P7). Exact for a straight vessel on its axis (d = 0, the first factor
+/// times erf: a disc under a Gaussian), in the limit of a thick one (a plane wall) and of a thin
+/// one (a Gaussian line).
 ///
 /// @param distance  d, from the axis
 /// @param radius    r, positive

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <map>
 #include <string_view>
@@ -15,7 +16,7 @@
 namespace nacre {
 namespace {
 
-constexpr double kStep_mm = 1.0;
+constexpr double kStepMm = 1.0;
 constexpr double kLeft = 1.0;
 constexpr double kRight = -1.0;
 
@@ -45,14 +46,14 @@ glm::dvec3 spline(const std::array<glm::dvec3, 4>& p, double u) {
   return p[1] + 0.5 * u * (linear + u * (square + u * cubic));
 }
 
-/// A curve through control points in steps of about kStep_mm, without its first point.
+/// A curve through control points in steps of about kStepMm, without its first point.
 std::vector<glm::dvec3> curve_through(std::span<const glm::dvec3> controls) {
   std::vector<glm::dvec3> points;
   for (std::size_t i = 0; i + 1 < controls.size(); ++i) {
     const std::array window{controls[i > 0 ? i - 1 : 0], controls[i], controls[i + 1],
                             controls[std::min(i + 2, controls.size() - 1)]};
     const double length = glm::distance(window[1], window[2]);
-    const int steps = std::max(1, static_cast<int>(length / kStep_mm + 0.5));
+    const int steps = std::max(1, static_cast<int>(std::lround(length / kStepMm)));
     for (int step = 1; step <= steps; ++step) {
       points.push_back(spline(window, static_cast<double>(step) / steps));
     }
@@ -72,11 +73,11 @@ std::int32_t nearest_node(const Arteries& arteries, const std::vector<std::int32
 
 /// The trunk's control points on one side, each moved a little.
 std::vector<glm::dvec3> moved_controls(const Trunk& trunk, double side, RandomSequence& random) {
-  constexpr double kMove_mm = 0.8;
+  constexpr double reach_mm = 0.8;
   std::vector<glm::dvec3> controls;
   for (const glm::dvec3& control_mm : trunk.controls_mm) {
     glm::dvec3 move;
-    for (int axis = 0; axis < 3; ++axis) move[axis] = random.uniform(-kMove_mm, kMove_mm);
+    for (int axis = 0; axis < 3; ++axis) move[axis] = random.uniform(-reach_mm, reach_mm);
     controls.push_back(on_side(control_mm, side) + move);
     if (trunk.feeds == Territory::Scalp) {
       controls.back() = BrainShape{}.at_scale(controls.back(), kScalpScale);
@@ -115,12 +116,12 @@ void add_trunk(Arteries& arteries, std::span<const Trunk> trunks, const Trunk& t
 /// The nodes from which a territory's branches may leave its trunks: one in five, and the ends.
 std::vector<std::int32_t> sprouts_of(const Arteries& arteries, std::span<const Trunk> trunks,
                                      Territory territory, double side) {
-  constexpr std::size_t kSpacing = 5;
+  constexpr std::size_t spacing = 5;
   std::vector<std::int32_t> sprouts;
   for (const Trunk& trunk : trunks) {
     if (trunk.feeds != territory) continue;
     const std::vector<std::int32_t>& nodes = arteries.trunk(trunk.name, side);
-    for (std::size_t i = kSpacing; i + 1 < nodes.size(); i += kSpacing) sprouts.push_back(nodes[i]);
+    for (std::size_t i = spacing; i + 1 < nodes.size(); i += spacing) sprouts.push_back(nodes[i]);
     if (territory != Territory::Perforators) sprouts.push_back(nodes.back());
   }
   return sprouts;
@@ -132,7 +133,7 @@ void grow_territory(Arteries& arteries, std::span<const Trunk> trunks,
   for (glm::dvec3& p_mm : targets) p_mm = on_side(p_mm, side);
   const std::size_t first = arteries.nodes.size();
   grow_vessels(arteries.nodes, sprouts_of(arteries, trunks, supply.territory, side), targets,
-               {.step_mm = kStep_mm});
+               {.step_mm = kStepMm});
   smooth_vessels(arteries.nodes, first, 4);
   if (supply.territory != Territory::Scalp) return;
   for (std::size_t i = first; i < arteries.nodes.size(); ++i) {
@@ -147,10 +148,10 @@ glm::dvec3 displaced(const glm::dvec3& p_mm, std::uint64_t seed) {
     double lattice_mm;
     double amplitude_mm;
   };
-  constexpr std::array<Scale, 3> kScales{{{24.0, 3.2}, {9.0, 2.2}, {3.6, 0.9}}};
+  constexpr std::array<Scale, 3> scales{{{24.0, 3.2}, {9.0, 2.2}, {3.6, 0.9}}};
   glm::dvec3 moved = p_mm;
   std::uint64_t field = kTortuositySalt;
-  for (const Scale& scale : kScales) {
+  for (const Scale& scale : scales) {
     for (int axis = 0; axis < 3; ++axis) {
       const double noise = smooth_noise(random_bits(seed, ++field), p_mm / scale.lattice_mm);
       moved[axis] += scale.amplitude_mm * noise;
@@ -230,7 +231,7 @@ VesselTree make_cerebral_arteries(std::uint64_t seed) {
     }
   }
   VesselTree tree;
-  assign_radii(arteries.nodes, kTipRadius_mm);
+  assign_radii(arteries.nodes, kTipRadiusMm);
   tree.nodes = arteries.nodes;
   for (VesselNode& node : tree.nodes) node.p_mm = displaced(node.p_mm, seed);
   add_bridges(tree, arteries, seed);

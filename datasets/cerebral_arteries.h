@@ -7,7 +7,7 @@
 namespace nacre {
 
 /// Radius of the finest vessels, mm: about half a voxel of the default angiogram.
-inline constexpr double kTipRadius_mm = 0.32;
+inline constexpr double kTipRadiusMm = 0.32;
 
 /// A model of the arteries of a head, in LPS mm.
 ///

@@ -8,6 +8,8 @@
 namespace nacre {
 namespace {
 
+constexpr double kPiSquared = std::numbers::pi * std::numbers::pi;
+
 /// Distance of a line from the origin.
 double distance_from_origin(const Ray& line) {
   return glm::length(glm::cross(line.origin_mm, line.direction));
@@ -48,14 +50,12 @@ double TorusField::value(const glm::dvec3& p_mm) const {
 }
 
 double TorusField::level_area_mm2(double level) const {
-  constexpr double kPi = std::numbers::pi;
-  return 4.0 * kPi * kPi * major_radius_mm * (minor_radius_mm - level);
+  return 4.0 * kPiSquared * major_radius_mm * (minor_radius_mm - level);
 }
 
 double TorusField::level_volume_mm3(double level) const {
-  constexpr double kPi = std::numbers::pi;
   const double tube = minor_radius_mm - level;
-  return 2.0 * kPi * kPi * major_radius_mm * tube * tube;
+  return 2.0 * kPiSquared * major_radius_mm * tube * tube;
 }
 
 double TorusField::maximum_along_z(double x_mm, double y_mm) const {

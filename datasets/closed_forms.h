@@ -8,7 +8,7 @@
 namespace nacre {
 
 /// The closed-form phantoms: fields v(p) over LPS millimetres, centred on the origin, with level
-/// surfaces and projections known exactly (derivations.md, "Phantoms"). Lines are infinite.
+/// surfaces and projections known exactly (docs/derivations.md, "Phantoms"). Lines are infinite.
 ///
 /// The phantoms hold samples of these fields; between samples a volume is trilinear, so that its
 /// own level surfaces and projections differ from these by O(spacing^2), except where stated.

@@ -203,21 +203,21 @@ std::vector<Trunk> cerebral_trunks() {
 }
 
 std::span<const TerritorySupply> territory_supplies() {
-  static constexpr std::array<TerritorySupply, 6> kSupplies{{{Territory::Perforators, 8},
-                                                             {Territory::Middle, 180},
-                                                             {Territory::Anterior, 90},
-                                                             {Territory::Posterior, 75},
-                                                             {Territory::Cerebellum, 50},
-                                                             {Territory::Scalp, 20}}};
-  return kSupplies;
+  static constexpr std::array<TerritorySupply, 6> supplies{{{Territory::Perforators, 8},
+                                                            {Territory::Middle, 180},
+                                                            {Territory::Anterior, 90},
+                                                            {Territory::Posterior, 75},
+                                                            {Territory::Cerebellum, 50},
+                                                            {Territory::Scalp, 20}}};
+  return supplies;
 }
 
 std::vector<glm::dvec3> territory_targets(const TerritorySupply& supply, RandomSequence& random) {
-  constexpr int kCandidates = 8;
+  constexpr int candidates = 8;
   std::vector<glm::dvec3> targets;
   while (targets.size() < static_cast<std::size_t>(supply.targets)) {
     glm::dvec3 best = candidate(supply.territory, random);
-    for (int i = 1; i < kCandidates; ++i) {
+    for (int i = 1; i < candidates; ++i) {
       const glm::dvec3 other = candidate(supply.territory, random);
       if (clearance(other, targets) > clearance(best, targets)) best = other;
     }

@@ -35,9 +35,9 @@ using Maker = Volume (*)(const Order&, const ProgressCallback&);
 template <class Sample>
 Sample stored_as(double value) {
   if constexpr (std::is_integral_v<Sample>) {
-    constexpr double kLowest = std::numeric_limits<Sample>::lowest();
-    constexpr double kHighest = std::numeric_limits<Sample>::max();
-    value = std::clamp(std::floor(value + 0.5), kLowest, kHighest);
+    constexpr double lowest = std::numeric_limits<Sample>::lowest();
+    constexpr double highest = std::numeric_limits<Sample>::max();
+    value = std::clamp(std::floor(value + 0.5), lowest, highest);
   }
   return static_cast<Sample>(value);
 }

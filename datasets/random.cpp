@@ -17,10 +17,10 @@ double open_uniform(std::uint32_t bits) { return (bits + 0.5) / 4294967296.0; }
 /// The lattice's value at one of its points, in [-1, 1).
 double lattice_value(std::uint64_t seed, std::int64_t x, std::int64_t y, std::int64_t z) {
   // 21 bits an axis: the lattice repeats after two million edges.
-  constexpr std::uint64_t kMask = (1u << 21) - 1;
-  const std::uint64_t counter = (static_cast<std::uint64_t>(x) & kMask) |
-                                (static_cast<std::uint64_t>(y) & kMask) << 21 |
-                                (static_cast<std::uint64_t>(z) & kMask) << 42;
+  constexpr std::uint64_t mask = (1u << 21) - 1;
+  const std::uint64_t counter = (static_cast<std::uint64_t>(x) & mask) |
+                                (static_cast<std::uint64_t>(y) & mask) << 21 |
+                                (static_cast<std::uint64_t>(z) & mask) << 42;
   return static_cast<double>(random_bits(seed, counter) >> 11) * 0x1p-52 - 1.0;
 }
 

@@ -63,7 +63,7 @@ constexpr std::array<Well, 2> kWells{{{{-20.0, 10.0, -190.0}, 1.0}, {{28.0, -16.
 constexpr int kPuffs = 32;
 
 /// A puff leaves the well with the spread it would have after this time: the well's own width.
-constexpr double kInitialAge_s = 50.0;
+constexpr double kInitialAgeS = 50.0;
 
 /// Makes the largest concentration of the default plume about 100 mg/l.
 constexpr double kMass = 2.5e6;
@@ -92,7 +92,7 @@ double PlumeField::value(const glm::dvec3& p_mm) const {
   for (const Well& well : kWells) {
     for (int puff = 0; puff < kPuffs; ++puff) {
       const double travel_s = last_release_age_s + release_s * puff / (kPuffs - 1);
-      const double age_s = travel_s + kInitialAge_s;
+      const double age_s = travel_s + kInitialAgeS;
       const double along = 2.0 * along_mm2_s * age_s;
       const double across = 2.0 * across_mm2_s * age_s;
       const glm::dvec3 u = p_mm - well.p_mm - glm::dvec3(0.0, 0.0, velocity_mm_s * travel_s);

@@ -22,8 +22,8 @@ double hipip_value(const glm::dvec3& p_mm);
 ///     dC/dt + v dC/dz = D_L d^2C/dz^2 + D_T (d^2C/dx^2 + d^2C/dy^2),
 ///
 /// the sum of Gaussian puffs given off at equal intervals (Bear 1972, "Dynamics of Fluids in Porous
-/// Media", chapter 10). A model tank of 210 x 210 x 510 mm about the origin, in which z is the long
-/// axis.
+/// Media", chapter 10; docs/derivations.md, P9). A model tank of 210 x 210 x 510 mm about the
+/// origin, in which z is the long axis.
 struct PlumeField {
   double velocity_mm_s = 1.0;       ///< v
   double along_mm2_s = 4.0;         ///< D_L

@@ -36,7 +36,8 @@ std::vector<int> child_counts(std::span<const VesselNode> nodes);
 std::vector<std::int32_t> main_children(std::span<const VesselNode> nodes);
 
 /// Radii by Murray's law (Murray 1926, "The physiological principle of minimum work"): the work of
-/// moving and keeping blood is least where the flow goes with the radius cubed, so that
+/// moving and keeping blood is least where the flow goes with the radius cubed
+/// (docs/derivations.md, P8), so that
 ///
 ///     r_parent^3 = sum of r_child^3
 ///

@@ -100,22 +100,25 @@ SampleRanks::SampleRanks(const Volume& volume) : volume_(volume), count_(sample_
 }
 
 double SampleRanks::value_at(std::uint64_t rank) const {
+  return volume_.slope * stored_at(rank) + volume_.intercept;
+}
+
+double SampleRanks::stored_at(std::uint64_t rank) const {
   assert(rank < count_);
   if (volume_.slope < 0.0) rank = count_ - 1 - rank;
-  const double stored = visit_samples(volume_, [&]<class T>(std::span<const T> samples) {
+  return visit_samples(volume_, [&]<class T>(std::span<const T> samples) {
     std::uint64_t code = digit_at(upper_counts_, rank);
     for (int shift = top_shift<T>() - kDigitBits; shift >= 0; shift -= kDigitBits) {
       code = code << kDigitBits | digit_at(count_digits(samples, code, shift), rank);
     }
     return static_cast<double>(sample_of<T>(static_cast<UnsignedOfSize<sizeof(T)>>(code)));
   });
-  return volume_.slope * stored + volume_.intercept;
 }
 
 std::uint64_t SampleRanks::count_of_least() const {
-  const double least = value_at(0);
+  const double least = stored_at(0);
   return visit_samples(volume_, [&]<class T>(std::span<const T> samples) {
-    const auto stored = static_cast<T>((least - volume_.intercept) / volume_.slope);
+    const auto stored = static_cast<T>(least);
     const auto count = [&](const tbb::blocked_range<std::size_t>& range, std::uint64_t sum) {
       const auto part = samples.subspan(range.begin(), range.size());
       return sum + static_cast<std::uint64_t>(std::count(part.begin(), part.end(), stored));

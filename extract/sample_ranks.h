@@ -27,6 +27,9 @@ class SampleRanks {
   std::uint64_t count_of_least() const;
 
  private:
+  /// The stored sample that has the value of that rank.
+  double stored_at(std::uint64_t rank) const;
+
   const Volume& volume_;
   std::uint64_t count_;
   std::vector<std::uint64_t> upper_counts_;  ///< samples by the upper 16 bits of their code

@@ -11,6 +11,7 @@
 #include "io/bad_file.h"
 #include "io/dicom_slice.h"
 #include "io/slice_stack.h"
+#include "io/stored_samples.h"
 #include "io/stretch.h"
 #include "io/volume_checks.h"
 
@@ -19,7 +20,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-using Slices = std::vector<DicomSlice>;
+/// The slices of a series, and the file of each.
+struct Slices {
+  std::vector<fs::path> files;
+  std::vector<DicomSlice> headers;
+};
 
 /// The images of a folder by series, in the order of their file names.
 std::map<std::string, Slices> find_series(const fs::path& folder, VolumeReadReport& report) {
@@ -31,13 +36,15 @@ std::map<std::string, Slices> find_series(const fs::path& folder, VolumeReadRepo
   std::sort(files.begin(), files.end());
   std::map<std::string, Slices> series;
   std::size_t others = 0;
-  for (const fs::path& file : files) {
-    std::optional<DicomSlice> slice = read_dicom_slice(file);
-    if (slice) {
-      series[slice->series_uid].push_back(std::move(*slice));
-    } else {
+  const std::vector<std::optional<DicomSlice>> found = read_dicom_slices(files);
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    if (!found[i]) {
       ++others;
+      continue;
     }
+    Slices& slices = series[std::string(found[i]->series_uid())];
+    slices.files.push_back(files[i]);
+    slices.headers.push_back(*found[i]);
   }
   if (others > 0) {
     report.warnings.push_back(fmt::format("{} files without a DICOM image passed over", others));
@@ -50,7 +57,8 @@ std::string list_of(const std::map<std::string, Slices>& series) {
   std::string list;
   for (const auto& [uid, slices] : series) {
     list += fmt::format("{}{} ({} slices of {} x {})", list.empty() ? "" : ", ", printable(uid),
-                        slices.size(), slices.front().columns, slices.front().rows);
+                        slices.files.size(), slices.headers.front().columns,
+                        slices.headers.front().rows);
   }
   return list;
 }
@@ -68,40 +76,46 @@ Slices choose_series(const fs::path& folder, std::map<std::string, Slices> serie
 }
 
 /// What GDCM could decode but this reader would misread.
-void check_kind(const DicomSlice& slice) {
+void check_kind(const fs::path& path, const DicomSlice& slice) {
   if (slice.frames != 1) {
-    throw_bad_file(slice.path, "a multi-frame (enhanced) image", "one slice a file");
+    throw_bad_file(path, "a multi-frame (enhanced) image", "one slice a file");
   }
-  if (slice.samples_per_pixel != 1 || !slice.photometric.starts_with("MONOCHROME")) {
-    throw_bad_file(slice.path, fmt::format("colour samples ({})", printable(slice.photometric)),
+  if (slice.samples_per_pixel != 1 || !slice.photometric().starts_with("MONOCHROME")) {
+    throw_bad_file(path, fmt::format("colour samples ({})", printable(slice.photometric())),
                    "MONOCHROME1 or MONOCHROME2");
   }
   const bool whole_bytes =
       slice.bits_allocated == 8 || slice.bits_allocated == 16 || slice.bits_allocated == 32;
   if (!whole_bytes || slice.bits_stored < 1 || slice.bits_stored > slice.bits_allocated ||
       slice.high_bit != slice.bits_stored - 1) {
-    throw_bad_file(slice.path,
+    throw_bad_file(path,
                    fmt::format("samples of {} bits, {} stored up to bit {}", slice.bits_allocated,
                                slice.bits_stored, slice.high_bit),
                    "8, 16 or 32 bits, stored from bit 0 on");
   }
   if (!slice.has_position) {
-    throw_bad_file(slice.path, "no position, orientation or pixel spacing",
+    throw_bad_file(path, "no position, orientation or pixel spacing",
                    "ImagePositionPatient, ImageOrientationPatient and PixelSpacing");
   }
   // Nothing that GDCM decodes packs an image tighter than this; a damaged size does.
   constexpr std::uint64_t kMaxGrowth = 16384;
   const std::int64_t size = slice.columns * slice.rows * slice.bits_allocated / 8;
-  if (size < 1 || static_cast<std::uint64_t>(size) / kMaxGrowth > file_size_of(slice.path)) {
-    throw_bad_file(slice.path, fmt::format("{} x {} samples", slice.columns, slice.rows),
+  if (size < 1 || static_cast<std::uint64_t>(size) / kMaxGrowth > file_size_of(path)) {
+    throw_bad_file(path, fmt::format("{} x {} samples", slice.columns, slice.rows),
                    "as many as the file can hold");
+  }
+  if (!holds_samples(path, slice.extent, static_cast<std::uint64_t>(size))) {
+    throw_bad_file(
+        path, "samples that the file's end cuts off",
+        fmt::format("{} x {} samples of {} bits", slice.columns, slice.rows, slice.bits_allocated));
   }
 }
 
 void check_alike(const fs::path& folder, const Slices& slices) {
-  const DicomSlice& first = slices.front();
-  for (const DicomSlice& slice : slices) {
-    check_kind(slice);
+  const DicomSlice& first = slices.headers.front();
+  for (std::size_t i = 0; i < slices.files.size(); ++i) {
+    const DicomSlice& slice = slices.headers[i];
+    check_kind(slices.files[i], slice);
     if (slice.columns != first.columns || slice.rows != first.rows) {
       throw_bad_file(folder,
                      fmt::format("slices of {} x {} and of {} x {} samples", first.columns,
@@ -116,7 +130,7 @@ void check_alike(const fs::path& folder, const Slices& slices) {
 
 SliceStack stack(const fs::path& folder, const Slices& slices, VolumeReadReport& report) {
   std::vector<SliceFrame> frames;
-  for (const DicomSlice& slice : slices) {
+  for (const DicomSlice& slice : slices.headers) {
     frames.push_back({slice.position, slice.x_direction, slice.y_direction, slice.spacing_mm,
                       slice.thickness_mm});
   }
@@ -126,7 +140,7 @@ SliceStack stack(const fs::path& folder, const Slices& slices, VolumeReadReport&
 }
 
 void warn_of_kind(const DicomSlice& slice, VolumeReadReport& report) {
-  if (slice.photometric == "MONOCHROME1") {
+  if (slice.photometric() == "MONOCHROME1") {
     report.warnings.emplace_back("MONOCHROME1: the lowest values are meant to be shown brightest");
   }
   if (slice.has_lookup_table) {
@@ -134,16 +148,17 @@ void warn_of_kind(const DicomSlice& slice, VolumeReadReport& report) {
   }
 }
 
-/// Reads slice after slice into its place.
+/// Reads the slices into their places.
 Volume read_slices(const Slices& slices, const std::vector<std::size_t>& order, ScalarType type) {
-  const DicomSlice& first = slices.front();
-  Volume volume =
-      make_volume({first.columns, first.rows, static_cast<std::int64_t>(slices.size())}, type);
-  const std::span<std::byte> samples(volume.samples.data(), volume.samples.size());
-  const std::size_t slice_size = samples.size() / slices.size();
-  for (std::size_t z = 0; z < order.size(); ++z) {
-    read_dicom_samples(slices[order[z]], samples.subspan(z * slice_size, slice_size));
+  DicomSlice common = slices.headers.front();
+  for (const DicomSlice& slice : slices.headers) {
+    common.bits_stored = std::max(common.bits_stored, slice.bits_stored);
   }
+  Volume volume =
+      make_volume({common.columns, common.rows, static_cast<std::int64_t>(order.size())}, type);
+  std::vector<fs::path> files;
+  for (const std::size_t i : order) files.push_back(slices.files[i]);
+  read_dicom_samples(files, common, {volume.samples.data(), volume.samples.size()});
   return volume;
 }
 
@@ -151,10 +166,10 @@ Volume read_slices(const Slices& slices, const std::vector<std::size_t>& order, 
 Volume rescaled(const Volume& stored, const Slices& slices, const std::vector<std::size_t>& order) {
   Volume values = make_volume(stored.dims, ScalarType::F32);
   const std::span<float> to = samples_as<float>(values);
-  const std::size_t slice_size = to.size() / slices.size();
+  const std::size_t slice_size = to.size() / order.size();
   visit_samples(stored, [&](auto from) {
     for (std::size_t i = 0; i < to.size(); ++i) {
-      const DicomSlice& slice = slices[order[i / slice_size]];
+      const DicomSlice& slice = slices.headers[order[i / slice_size]];
       to[i] = static_cast<float>(slice.slope * static_cast<double>(from[i]) + slice.intercept);
     }
   });
@@ -168,16 +183,17 @@ Volume read_dicom_series(const fs::path& folder, const std::string& series_uid,
   report.format = "DICOM series";
   const Slices slices = choose_series(folder, find_series(folder, report), series_uid);
   check_alike(folder, slices);
-  const DicomSlice& first = slices.front();
+  const DicomSlice& first = slices.headers.front();
   warn_of_kind(first, report);
   const SliceStack grid = stack(folder, slices, report);
 
   const auto type = static_cast<ScalarType>(
       integer_type(static_cast<std::size_t>(first.bits_allocated / 8), first.is_signed));
   Volume volume = read_slices(slices, grid.order, type);
-  const bool one_scale = std::all_of(slices.begin(), slices.end(), [&](const DicomSlice& slice) {
-    return slice.slope == first.slope && slice.intercept == first.intercept;
-  });
+  const bool one_scale =
+      std::all_of(slices.headers.begin(), slices.headers.end(), [&](const DicomSlice& slice) {
+        return slice.slope == first.slope && slice.intercept == first.intercept;
+      });
   if (one_scale) {
     set_scaling(folder, first.slope, first.intercept, volume);
   } else {

@@ -9,10 +9,16 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <fstream>
+#include <stdexcept>
+#include <string>
 #include <string_view>
+#include <system_error>
+#include <type_traits>
 #include <vector>
 
 #include "io/bad_file.h"
+#include "io/child_process.h"
 #include "io/data_files.h"
 #include "io/dicom_magic.h"
 #include "io/number_list.h"
@@ -64,6 +70,11 @@ int integer_or(const gdcm::DataSet& data, int otherwise) {
   return static_cast<int>(attribute.GetValue());
 }
 
+/// As much of a text as there is room for, ended by 0.
+void copy_text(const std::string& text, std::span<char> to) {
+  std::copy_n(text.begin(), std::min(text.size(), to.size() - 1), to.begin());
+}
+
 void read_frame(const gdcm::DataSet& data, DicomSlice& slice) {
   const auto position = numbers_of(data, gdcm::Tag(0x0020, 0x0032), 3);
   const auto directions = numbers_of(data, gdcm::Tag(0x0020, 0x0037), 6);
@@ -80,14 +91,13 @@ void read_frame(const gdcm::DataSet& data, DicomSlice& slice) {
   slice.thickness_mm = number_or(data, gdcm::Tag(0x0018, 0x0050), 0.0);
 }
 
-DicomSlice describe(const fs::path& path, const gdcm::DataSet& data) {
+DicomSlice describe(const gdcm::DataSet& data) {
   DicomSlice slice;
-  slice.path = path;
-  slice.series_uid = text_of(data, gdcm::Tag(0x0020, 0x000e));
+  copy_text(text_of(data, gdcm::Tag(0x0020, 0x000e)), slice.series_uid_text);
   slice.rows = integer_or<0x0028, 0x0010>(data, 0);
   slice.columns = integer_or<0x0028, 0x0011>(data, 0);
   slice.samples_per_pixel = integer_or<0x0028, 0x0002>(data, 1);
-  slice.photometric = text_of(data, gdcm::Tag(0x0028, 0x0004));
+  copy_text(text_of(data, gdcm::Tag(0x0028, 0x0004)), slice.photometric_text);
   slice.bits_allocated = integer_or<0x0028, 0x0100>(data, 0);
   slice.bits_stored = integer_or<0x0028, 0x0101>(data, slice.bits_allocated);
   slice.high_bit = integer_or<0x0028, 0x0102>(data, slice.bits_stored - 1);
@@ -131,52 +141,104 @@ void fill_unused_bits(std::span<std::byte> samples, const DicomSlice& slice) {
   }
 }
 
-/// Runs GDCM on a file: silent, and with whatever it throws as one line of ours.
-template <class Work>
-auto guarded(const fs::path& path, Work work) {
-  gdcm::Trace::DebugOff();
-  gdcm::Trace::WarningOff();
-  gdcm::Trace::ErrorOff();
-  try {
-    return work();
-  } catch (const std::exception&) {
-    // Its allocations follow lengths in the file, so that std::bad_alloc means damage here too.
+/// What a file says; may end the process if it is damaged.
+std::optional<DicomSlice> parse(const fs::path& path, bool certainly_dicom) {
+  std::ifstream file(path, std::ios::binary);
+  gdcm::Reader reader;
+  reader.SetStream(file);  // a stream of ours, whose position can be asked for afterwards
+  if (!certainly_dicom && !reader.CanRead()) return std::nullopt;
+  // Skipping that element leaves the stream at its value.
+  if (!reader.ReadUpToTag(kPixelData, {kPixelData})) {
+    if (!certainly_dicom) return std::nullopt;
+    throw std::runtime_error("unreadable");
   }
-  throw_bad_file(path, "a damaged DICOM file", "one that can be decoded");
+  const gdcm::DataSet& data = reader.GetFile().GetDataSet();
+  const bool image = data.FindDataElement(gdcm::Tag(0x0028, 0x0010)) &&
+                     data.FindDataElement(gdcm::Tag(0x0020, 0x000e));
+  if (!image) return std::nullopt;
+  DicomSlice slice = describe(data);
+  const gdcm::TransferSyntax& syntax = reader.GetFile().GetHeader().GetDataSetTransferSyntax();
+  slice.extent.offset = static_cast<std::uint64_t>(std::streamoff{file.tellg()});
+  slice.extent.encapsulated = syntax.IsEncapsulated();
+  slice.extent.deflated =
+      syntax == gdcm::TransferSyntax(gdcm::TransferSyntax::DeflatedExplicitVRLittleEndian);
+  return slice;
 }
+
+/// Fills `samples`, or throws, or ends the process.
+void decode(const fs::path& path, std::span<std::byte> samples) {
+  gdcm::ImageReader reader;
+  reader.SetFileName(path.c_str());
+  if (!reader.Read()) throw std::runtime_error("unreadable");
+  const gdcm::Image& image = reader.GetImage();
+  if (image.GetBufferLength() != samples.size() ||
+      !image.GetBuffer(reinterpret_cast<char*>(samples.data()))) {
+    throw std::runtime_error("other samples than announced");
+  }
+}
+
+/// What GDCM may allocate: room for a whole file and for itself.
+std::size_t memory_for(const std::vector<fs::path>& files) {
+  constexpr std::size_t kOwn = std::size_t{128} << 20;
+  std::uintmax_t largest = 0;
+  std::error_code ignored;
+  for (const fs::path& file : files) largest = std::max(largest, fs::file_size(file, ignored));
+  return kOwn + 2 * static_cast<std::size_t>(largest);
+}
+
+/// What a child says about each file, as bytes. Trivially copyable: the child is a copy of us.
+struct Finding {
+  bool has_image = false;
+  DicomSlice slice;
+};
+static_assert(std::is_trivially_copyable_v<Finding>);
 
 }  // namespace
 
-std::optional<DicomSlice> read_dicom_slice(const fs::path& path) {
-  const bool certainly_dicom = has_dicom_magic(path);
-  return guarded(path, [&]() -> std::optional<DicomSlice> {
-    gdcm::Reader reader;
-    reader.SetFileName(path.c_str());
-    if (!certainly_dicom && !reader.CanRead()) return std::nullopt;
-    if (!reader.ReadUpToTag(kPixelData)) {
-      if (!certainly_dicom) return std::nullopt;
-      throw std::runtime_error("unreadable");
+std::vector<std::optional<DicomSlice>> read_dicom_slices(const std::vector<fs::path>& files) {
+  std::vector<std::optional<DicomSlice>> slices;
+  while (slices.size() < files.size()) {
+    const std::size_t begin = slices.size();
+    ChildProcess child(memory_for(files), [&](const ByteSink& sink) {
+      gdcm::Trace::WarningOff();
+      for (std::size_t i = begin; i < files.size(); ++i) {
+        const std::optional<DicomSlice> slice = parse(files[i], has_dicom_magic(files[i]));
+        const Finding finding{slice.has_value(), slice.value_or(DicomSlice{})};
+        sink(std::as_bytes(std::span(&finding, 1)));
+      }
+    });
+    Finding finding;
+    while (slices.size() < files.size() &&
+           child.read(std::as_writable_bytes(std::span(&finding, 1)))) {
+      slices.push_back(finding.has_image ? std::optional(finding.slice) : std::nullopt);
     }
-    const gdcm::DataSet& data = reader.GetFile().GetDataSet();
-    const bool image = data.FindDataElement(gdcm::Tag(0x0028, 0x0010)) &&
-                       data.FindDataElement(gdcm::Tag(0x0020, 0x000e));
-    if (!image) return std::nullopt;
-    return describe(path, data);
-  });
+    if (slices.size() == files.size()) break;
+    // The child ended at this file: damaged, or none of GDCM's business. Go on behind it.
+    const fs::path& culprit = files[slices.size()];
+    if (has_dicom_magic(culprit)) {
+      throw_bad_file(culprit, "a damaged DICOM file", "one that can be decoded");
+    }
+    slices.emplace_back();
+  }
+  return slices;
 }
 
-void read_dicom_samples(const DicomSlice& slice, std::span<std::byte> samples) {
-  const bool decoded = guarded(slice.path, [&] {
-    gdcm::ImageReader reader;
-    reader.SetFileName(slice.path.c_str());
-    if (!reader.Read()) return false;
-    const gdcm::Image& image = reader.GetImage();
-    return image.GetBufferLength() == samples.size() &&
-           image.GetBuffer(reinterpret_cast<char*>(samples.data()));
+void read_dicom_samples(const std::vector<fs::path>& files, const DicomSlice& slice,
+                        std::span<std::byte> samples) {
+  const std::size_t size = samples.size() / files.size();
+  // The library holds a slice several times while it decodes it.
+  ChildProcess child(memory_for(files) + 8 * size, [&](const ByteSink& sink) {
+    gdcm::Trace::WarningOff();
+    std::vector<std::byte> decoded(size);
+    for (const fs::path& file : files) {
+      decode(file, decoded);
+      sink(decoded);
+    }
   });
-  if (!decoded) {
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    if (child.read(samples.subspan(i * size, size))) continue;
     throw_bad_file(
-        slice.path, "samples that cannot be decoded or are not as many",
+        files[i], "samples that cannot be decoded or are not as many",
         fmt::format("{} x {} samples of {} bits", slice.columns, slice.rows, slice.bits_allocated));
   }
   fill_unused_bits(samples, slice);

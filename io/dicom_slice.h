@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -7,21 +8,22 @@
 #include <glm/vec3.hpp>
 #include <optional>
 #include <span>
-#include <string>
+#include <string_view>
+#include <vector>
 
-#include "io/stored_samples.h"
+#include "io/dicom_extent.h"
 
 namespace nacre {
 
 /// What one DICOM file says about its image. Nothing about the patient is read.
 struct DicomSlice {
-  std::filesystem::path path;
-  std::string series_uid;
-  std::int64_t columns = 0;  ///< samples along x
-  std::int64_t rows = 0;     ///< samples along y
+  std::array<char, 65> series_uid_text{};   ///< ended by 0
+  std::array<char, 17> photometric_text{};  ///< "MONOCHROME2", "RGB", ..., ended by 0
+  DicomExtent extent;                       ///< of its samples in the file
+  std::int64_t columns = 0;                 ///< samples along x
+  std::int64_t rows = 0;                    ///< samples along y
   std::int64_t frames = 1;
   int samples_per_pixel = 1;
-  std::string photometric;  ///< "MONOCHROME2", "RGB", ...
   int bits_allocated = 0;
   int bits_stored = 0;
   int high_bit = 0;
@@ -36,18 +38,29 @@ struct DicomSlice {
   glm::dvec3 y_direction{0.0};  ///< along a column
   glm::dvec2 spacing_mm{0.0};   ///< along x, along y
   double thickness_mm = 0.0;    ///< 0 where not stated
+
+  std::string_view series_uid() const { return series_uid_text.data(); }
+  std::string_view photometric() const { return photometric_text.data(); }
 };
 
-/// Reads what a file says about its image; nothing if it is no DICOM file, or one without an image
-/// (DICOMDIR, reports).
-/// @throws Error  BadFile if it is a DICOM file, but damaged
-std::optional<DicomSlice> read_dicom_slice(const std::filesystem::path& path);
-
-/// Decodes the image's stored samples (x fastest, the machine's byte order) into `samples`, with
-/// the bits above those stored cleared, or filled with the sign.
+/// Reads what files say about their images; nothing for one that is no DICOM file, or one without
+/// an image (DICOMDIR, reports).
 ///
-/// @pre    `samples` has columns * rows * bits_allocated / 8 bytes
-/// @throws Error  BadFile if they cannot be decoded, or are not as many
-void read_dicom_samples(const DicomSlice& slice, std::span<std::byte> samples);
+/// GDCM, which parses them, may end its process where a file is damaged, so it works in a child
+/// process (see docs/decisions/003).
+///
+/// @throws Error  BadFile naming the first file that is DICOM, but damaged
+std::vector<std::optional<DicomSlice>> read_dicom_slices(
+    const std::vector<std::filesystem::path>& files);
+
+/// Decodes stored samples (x fastest, the machine's byte order), slice after slice, with the bits
+/// above those stored cleared, or filled with the sign. In a child process too.
+///
+/// @param files    one a slice, in the order in which they are to lie in `samples`
+/// @param slice    what all of them have in common: size and type
+/// @pre            `samples` has files * columns * rows * bits_allocated / 8 bytes
+/// @throws Error   BadFile naming the first file that cannot be decoded
+void read_dicom_samples(const std::vector<std::filesystem::path>& files, const DicomSlice& slice,
+                        std::span<std::byte> samples);
 
 }  // namespace nacre

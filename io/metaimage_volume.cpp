@@ -139,6 +139,7 @@ Volume read_metaimage(const fs::path& path, VolumeReadReport& report) {
   const itk::MetaImageIO::Pointer header = parse(path);
   const MetaImage& image = *header->GetMetaImagePointer();
 
+  if (!image.BinaryData()) throw_bad_file(path, "samples as text", "binary ones");
   StoredSamples stored = where_samples_lie(image, text);
   stored.type = stored_type(path, image.ElementType());
   stored.dims = dimensions(path, image);

@@ -13,9 +13,10 @@ namespace nacre {
 
 /// How to read a volume, where the file alone does not say it.
 struct VolumeReadOptions {
-  std::optional<RawHeader> raw;   ///< the file holds bare samples of this kind, whatever its name
-  std::optional<VoxelCrop> crop;  ///< keep these voxels only, both ends included
-  std::string dicom_series;       ///< SeriesInstanceUID; empty: the only one in the folder
+  std::optional<RawHeader> raw =
+      {};  ///< the file holds bare samples of this kind, whatever its name
+  std::optional<VoxelCrop> crop = {};  ///< keep these voxels only, both ends included
+  std::string dicom_series = {};       ///< SeriesInstanceUID; empty: the only one in the folder
 };
 
 /// A volume, and what reading it found out.

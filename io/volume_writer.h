@@ -18,4 +18,8 @@ namespace nacre {
 ///                samples along an axis in MetaImage), and where writing fails
 void write_volume(const Volume& volume, const std::filesystem::path& path);
 
+/// Refuses a name that `write_volume` would refuse, before the work of making the volume.
+/// @throws Error  BadArgument for an extension that names no format
+void require_volume_name(const std::filesystem::path& path);
+
 }  // namespace nacre

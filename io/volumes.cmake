@@ -17,7 +17,7 @@ nacre_library(io_volumes
     nifti_header.cpp nifti_volume.cpp nifti_writer.cpp nrrd_writer.cpp non_finite.cpp
     raw_volume.cpp slice_stack.cpp stored_samples.cpp stretch.cpp volume_checks.cpp volume_crop.cpp
     volume_reader.cpp volume_writer.cpp
-  HEADERS bad_file.h data_files.h dicom_magic.h dicom_series.h dicom_slice.h length_unit.h metaimage_text.h metaimage_volume.h nifti_header.h
+  HEADERS bad_file.h child_process.h data_files.h dicom_extent.h dicom_magic.h dicom_series.h dicom_slice.h length_unit.h metaimage_text.h metaimage_volume.h nifti_header.h
     nifti_volume.h non_finite.h nrrd_text.h nrrd_volume.h number_list.h raw_volume.h
     slice_stack.h     stored_samples.h stretch.h volume_checks.h volume_crop.h volume_read_report.h volume_reader.h volume_writer.h
     gzip_writer.h metaimage_writer.h nifti_writer.h nrrd_writer.h
@@ -33,7 +33,7 @@ if(NACRE_WITH_ITK)
   find_package(GDCM REQUIRED)
   unset(CMAKE_MESSAGE_LOG_LEVEL)
   target_sources(nacre_io_volumes PRIVATE
-    dicom_series.cpp dicom_slice.cpp length_unit.cpp metaimage_text.cpp metaimage_volume.cpp nrrd_text.cpp nrrd_volume.cpp)
+    child_process.cpp dicom_extent.cpp dicom_series.cpp dicom_slice.cpp length_unit.cpp metaimage_text.cpp metaimage_volume.cpp nrrd_text.cpp nrrd_volume.cpp)
   # After the NIfTI library's headers: ITK brings an old znzlib.h of its own.
   target_include_directories(nacre_io_volumes SYSTEM PRIVATE ${ITK_INCLUDE_DIRS} ${GDCM_INCLUDE_DIRS})
   target_link_libraries(nacre_io_volumes PRIVATE ${ITK_LIBRARIES} gdcmMSFF gdcmDSED gdcmCommon)

@@ -27,9 +27,9 @@ TEST(VesselCoverage, TendsToAPlaneWall) {
 }
 
 TEST(VesselCoverage, TendsToAGaussianLine) {
-  constexpr double kThin = 0.02;  // of a spread of 1: the next term is its square
-  const double peak = vessel_coverage(0.0, kThin, 1.0);
-  EXPECT_NEAR(vessel_coverage(1.3, kThin, 1.0) / peak, std::exp(-0.5 * 1.3 * 1.3), 1e-3);
+  constexpr double thin = 0.02;  // of a spread of 1: the next term is its square
+  const double peak = vessel_coverage(0.0, thin, 1.0);
+  EXPECT_NEAR(vessel_coverage(1.3, thin, 1.0) / peak, std::exp(-0.5 * 1.3 * 1.3), 1e-3);
 }
 
 /// Mean and mean square of many magnitudes.
@@ -57,14 +57,14 @@ double rician_mean(double signal, double sigma) {
 }
 
 TEST(RicianMagnitude, HasRicesMeanAndMeanSquare) {
-  constexpr int kDraws = 200'000;
-  constexpr double kSigma = 20.0;
+  constexpr int draws = 200'000;
+  constexpr double sigma = 20.0;
   for (const double signal : {0.0, 15.0, 60.0, 300.0}) {
-    const Moments found = moments(signal, kSigma, kDraws);
-    const double spread = 5.0 * kSigma / std::sqrt(kDraws);
-    EXPECT_NEAR(found.mean, rician_mean(signal, kSigma), spread) << signal;
-    EXPECT_NEAR(found.mean_square, signal * signal + 2.0 * kSigma * kSigma,
-                spread * 2.0 * (signal + kSigma))
+    const Moments found = moments(signal, sigma, draws);
+    const double spread = 5.0 * sigma / std::sqrt(draws);
+    EXPECT_NEAR(found.mean, rician_mean(signal, sigma), spread) << signal;
+    EXPECT_NEAR(found.mean_square, signal * signal + 2.0 * sigma * sigma,
+                spread * 2.0 * (signal + sigma))
         << signal;
   }
 }
@@ -89,8 +89,8 @@ std::vector<double> air_samples(const Volume& volume) {
 }
 
 TEST(Angiogram, AirIsRayleighDistributed) {
-  constexpr double kSigma = 30.0;
-  const Volume volume = make_angiogram({.size = kSmall, .seed = 1, .noise = kSigma});
+  constexpr double sigma = 30.0;
+  const Volume volume = make_angiogram({.size = kSmall, .seed = 1, .noise = sigma});
   const std::vector<double> air = air_samples(volume);
   double mean = 0.0;
   double square = 0.0;
@@ -98,10 +98,10 @@ TEST(Angiogram, AirIsRayleighDistributed) {
     mean += m / static_cast<double>(air.size());
     square += m * m / static_cast<double>(air.size());
   }
-  const double chance = 5.0 * kSigma / std::sqrt(static_cast<double>(air.size()));
-  EXPECT_NEAR(mean, kSigma * std::sqrt(std::numbers::pi / 2.0), chance);
-  EXPECT_NEAR(square - mean * mean, (2.0 - std::numbers::pi / 2.0) * kSigma * kSigma,
-              2.0 * kSigma * chance);
+  const double chance = 5.0 * sigma / std::sqrt(static_cast<double>(air.size()));
+  EXPECT_NEAR(mean, sigma * std::sqrt(std::numbers::pi / 2.0), chance);
+  EXPECT_NEAR(square - mean * mean, (2.0 - std::numbers::pi / 2.0) * sigma * sigma,
+              2.0 * sigma * chance);
 }
 
 TEST(Angiogram, VesselsOutshineTheTissue) {
@@ -121,7 +121,7 @@ TEST(Angiogram, CoversTheSameFieldOfViewAtAnySize) {
     const glm::dvec3 spacing = spacing_mm(volume.world_from_voxel);
     const BoundingSphere sphere = bounding_sphere(volume.dims, volume.world_from_voxel);
     for (int axis = 0; axis < 3; ++axis) {
-      EXPECT_NEAR(spacing[axis] * static_cast<double>(size[axis]), kAngiogramExtent_mm[axis], 1e-9);
+      EXPECT_NEAR(spacing[axis] * static_cast<double>(size[axis]), kAngiogramExtentMm[axis], 1e-9);
       EXPECT_NEAR(sphere.center_mm[axis], 0.0, 1e-9);
     }
   }

@@ -31,8 +31,7 @@ TEST(CerebralArteries, FollowMurraysLawAtEveryNode) {
     children_cubed[static_cast<std::size_t>(node.parent)] += std::pow(node.radius_mm, 3);
   }
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const double expected =
-        children_cubed[i] > 0.0 ? children_cubed[i] : std::pow(kTipRadius_mm, 3);
+    const double expected = children_cubed[i] > 0.0 ? children_cubed[i] : std::pow(kTipRadiusMm, 3);
     ASSERT_NEAR(std::pow(nodes[i].radius_mm, 3) / expected, 1.0, 10 * kRounding);
   }
 }
@@ -48,7 +47,7 @@ TEST(CerebralArteries, HaveFiveEntriesAndHundredsOfTips) {
 
 TEST(CerebralArteries, HaveRadiiOfArteries) {
   for (const VesselNode& node : arteries().nodes) {
-    ASSERT_GE(node.radius_mm, kTipRadius_mm * (1.0 - kRounding));
+    ASSERT_GE(node.radius_mm, kTipRadiusMm * (1.0 - kRounding));
     ASSERT_LE(node.radius_mm, 2.5);
   }
 }
@@ -106,9 +105,9 @@ TEST(CerebralArteries, CarryAnAneurysmOnABifurcation) {
 
 TEST(CerebralArteries, LieInTheFieldOfViewExceptWhereTheyEnter) {
   for (const VesselNode& node : arteries().nodes) {
-    EXPECT_LT(std::abs(node.p_mm.x), 0.5 * kAngiogramExtent_mm.x);
-    EXPECT_LT(std::abs(node.p_mm.y), 0.5 * kAngiogramExtent_mm.y);
-    EXPECT_LT(node.p_mm.z, 0.5 * kAngiogramExtent_mm.z);
+    EXPECT_LT(std::abs(node.p_mm.x), 0.5 * kAngiogramExtentMm.x);
+    EXPECT_LT(std::abs(node.p_mm.y), 0.5 * kAngiogramExtentMm.y);
+    EXPECT_LT(node.p_mm.z, 0.5 * kAngiogramExtentMm.z);
   }
 }
 

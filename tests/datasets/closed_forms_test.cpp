@@ -23,10 +23,10 @@ struct Sampled {
 };
 
 Sampled march(const Field& field, const Ray& line, double from_mm, double to_mm) {
-  constexpr int kSteps = 200'000;
-  const double step_mm = (to_mm - from_mm) / kSteps;
+  constexpr int steps = 200'000;
+  const double step_mm = (to_mm - from_mm) / steps;
   Sampled sampled{-1e300, 0.0};
-  for (int i = 0; i < kSteps; ++i) {
+  for (int i = 0; i < steps; ++i) {
     const double value = field(line.origin_mm + (from_mm + (i + 0.5) * step_mm) * line.direction);
     sampled.maximum = std::max(sampled.maximum, value);
     sampled.integral += value * step_mm;
@@ -83,10 +83,9 @@ TEST(TorusField, IsTheSignedDistanceToTheTorus) {
 // The volume between two levels is the area of the levels integrated over the distance.
 TEST(TorusField, AreaIsTheVolumesDerivative) {
   const TorusField field;
-  constexpr double kStep = 1e-4;
-  const double difference =
-      field.level_volume_mm3(2.0 - kStep) - field.level_volume_mm3(2.0 + kStep);
-  EXPECT_NEAR(difference / (2 * kStep), field.level_area_mm2(2.0), 1e-5);
+  constexpr double step = 1e-4;
+  const double difference = field.level_volume_mm3(2.0 - step) - field.level_volume_mm3(2.0 + step);
+  EXPECT_NEAR(difference / (2 * step), field.level_area_mm2(2.0), 1e-5);
 }
 
 TEST(QuadraticField, ProjectionsAreTheMarchedOnes) {

@@ -73,7 +73,7 @@ TEST(Phantom, SameBytesWithOneThreadAndWithTwo) {
 // Stored: the bytes may not depend on the compiler, its settings or the machine.
 TEST(Phantom, SameBytesOnEveryMachine) {
   EXPECT_EQ(checksum(make_phantom("angiogram", {.size = glm::i64vec3(48, 48, 24)})),
-            12459499615761464572u);
+            18040450905837359102u);
   EXPECT_EQ(checksum(make_phantom("torus", {.noise = 0.5})), 12682906184982810935u);
   EXPECT_EQ(checksum(make_phantom("hipip")), 14369651114221521901u);
   EXPECT_EQ(checksum(make_phantom("plume")), 13800113759543183693u);
@@ -107,10 +107,10 @@ void expect_samples(const Volume& volume, const Field& field, double tolerance) 
 
 TEST(Phantom, ClosedFormsHoldAtTheirSamples) {
   const PhantomOptions odd{.size = glm::i64vec3(17, 30, 9)};
-  constexpr double kFloat = 4e-6;  // half a unit in the last place of values up to 64
-  expect_samples<float>(make_phantom("spheres"), SphereField{}, kFloat);
-  expect_samples<float>(make_phantom("spheres", odd), SphereField{}, kFloat);
-  expect_samples<float>(make_phantom("torus", odd), TorusField{}, kFloat);
+  constexpr double float_rounding = 4e-6;  // half a unit in the last place of values up to 64
+  expect_samples<float>(make_phantom("spheres"), SphereField{}, float_rounding);
+  expect_samples<float>(make_phantom("spheres", odd), SphereField{}, float_rounding);
+  expect_samples<float>(make_phantom("torus", odd), TorusField{}, float_rounding);
   expect_samples<double>(make_phantom("quadratic", odd), QuadraticField{}, 1e-11);
 }
 

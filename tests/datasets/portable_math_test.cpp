@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -9,16 +10,19 @@ namespace nacre {
 namespace {
 
 constexpr double kRounding = 1e-15;
+constexpr double kErfBound = 1.5e-7;
 
 TEST(PortableMath, LogIsTheLogarithm) {
-  for (double x = 1e-12; x < 1e12; x *= 1.37) {
+  for (int i = -100; i <= 100; ++i) {
+    const double x = std::pow(1.31, i);
     EXPECT_NEAR(portable_log(x), std::log(x), 4 * kRounding * std::max(1.0, std::abs(std::log(x))));
   }
   EXPECT_EQ(portable_log(1.0), 0.0);
 }
 
 TEST(PortableMath, ExpIsTheExponential) {
-  for (double x = -600.0; x < 600.0; x += 0.731) {
+  for (int i = -800; i <= 800; ++i) {
+    const double x = 0.731 * i;
     EXPECT_NEAR(portable_exp(x) / std::exp(x), 1.0, kRounding) << "x = " << x;
   }
   EXPECT_EQ(portable_exp(0.0), 1.0);
@@ -26,14 +30,16 @@ TEST(PortableMath, ExpIsTheExponential) {
 }
 
 TEST(PortableMath, CbrtIsTheCubeRoot) {
-  for (double x = 1e-30; x < 1e30; x *= 1.93) {
+  for (int i = -100; i <= 100; ++i) {
+    const double x = std::pow(1.93, i);
     EXPECT_NEAR(portable_cbrt(x) / std::cbrt(x), 1.0, kRounding) << "x = " << x;
   }
   EXPECT_EQ(portable_cbrt(0.0), 0.0);
 }
 
 TEST(PortableMath, CosSinFollowTheCircle) {
-  for (double u = 0.0; u <= 1.0; u += 0.0037) {
+  for (int i = 0; i <= 256; ++i) {
+    const double u = i / 256.0;
     const CosSin circle = portable_cos_sin(u);
     EXPECT_NEAR(circle.cosine, std::cos(2.0 * std::numbers::pi * u), kRounding) << "u = " << u;
     EXPECT_NEAR(circle.sine, std::sin(2.0 * std::numbers::pi * u), kRounding) << "u = " << u;
@@ -41,10 +47,10 @@ TEST(PortableMath, CosSinFollowTheCircle) {
 }
 
 TEST(PortableMath, ErfIsWithinTheBoundOfItsFormula) {
-  constexpr double kBound = 1.5e-7;
-  for (double x = -5.0; x <= 5.0; x += 0.0173) {
-    EXPECT_NEAR(portable_erf(x), std::erf(x), kBound) << "x = " << x;
-    EXPECT_NEAR(portable_erfc(x), std::erfc(x), kBound) << "x = " << x;
+  for (int i = -300; i <= 300; ++i) {
+    const double x = 0.0173 * i;
+    EXPECT_NEAR(portable_erf(x), std::erf(x), kErfBound) << "x = " << x;
+    EXPECT_NEAR(portable_erfc(x), std::erfc(x), kErfBound) << "x = " << x;
   }
 }
 

@@ -65,8 +65,8 @@ TEST(NormalPair, SeedsOneApartShareNothing) {
 }
 
 TEST(SmoothNoise, StaysInRangeAndIsContinuousAcrossTheLattice) {
-  constexpr double kShort = 1e-6;
-  constexpr double kSteepest = 2.0 * 1.875;  // largest slope of the quintic, times the range
+  constexpr double shift = 1e-6;
+  constexpr double steepest = 2.0 * 1.875;  // largest slope of the quintic, times the range
   double least = 1.0;
   double most = -1.0;
   for (int i = -500; i < 500; ++i) {
@@ -76,8 +76,8 @@ TEST(SmoothNoise, StaysInRangeAndIsContinuousAcrossTheLattice) {
     most = std::max(most, value);
     for (int axis = 0; axis < 3; ++axis) {
       glm::dvec3 near = p;
-      near[axis] += kShort;
-      EXPECT_NEAR(smooth_noise(3, near), value, 1.01 * kSteepest * kShort);
+      near[axis] += shift;
+      EXPECT_NEAR(smooth_noise(3, near), value, 1.01 * steepest * shift);
     }
   }
   EXPECT_GE(least, -1.0);

@@ -30,23 +30,23 @@ TEST(Hipip, HasLobesOfBothSignsUpToItsBounds) {
 
 // Central differences of second order, a small step against the plume's millimetres and seconds.
 TEST(Plume, SolvesTheAdvectionDispersionEquation) {
-  constexpr double kStep = 0.5;
+  constexpr double h = 0.5;
   const auto value = [](const glm::dvec3& p, double t) {
     return PlumeField{.last_release_age_s = t}.value(p);
   };
   for (const glm::dvec3 p :
        {glm::dvec3(-15, 5, -100), glm::dvec3(10, 0, 0), glm::dvec3(20, -20, 120)}) {
-    constexpr double kTime = 40.0;
+    constexpr double time_s = 40.0;
     const auto second = [&](const glm::dvec3& step) {
-      const double sides = value(p + step, kTime) + value(p - step, kTime);
-      return (sides - 2.0 * value(p, kTime)) / (kStep * kStep);
+      const double sides = value(p + step, time_s) + value(p - step, time_s);
+      return (sides - 2.0 * value(p, time_s)) / (h * h);
     };
-    const glm::dvec3 along(0, 0, kStep);
-    const double rate = (value(p, kTime + kStep) - value(p, kTime - kStep)) / (2.0 * kStep);
-    const double advection = (value(p + along, kTime) - value(p - along, kTime)) / (2.0 * kStep);
+    const glm::dvec3 along(0, 0, h);
+    const double rate = (value(p, time_s + h) - value(p, time_s - h)) / (2.0 * h);
+    const double advection = (value(p + along, time_s) - value(p - along, time_s)) / (2.0 * h);
     const PlumeField field;
     const double dispersion = field.along_mm2_s * second(along) +
-                              field.across_mm2_s * (second({kStep, 0, 0}) + second({0, kStep, 0}));
+                              field.across_mm2_s * (second({h, 0, 0}) + second({0, h, 0}));
     const double residual = rate + field.velocity_mm_s * advection - dispersion;
     EXPECT_NEAR(residual, 0.0, 1e-3 * std::abs(dispersion) + 1e-6);
   }

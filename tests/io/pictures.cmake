@@ -1,1 +1,3 @@
-# Tests of nacre::io_pictures.
+nacre_test(io_pictures
+  SOURCES picture_file_test.cpp
+  LINK nacre::io_pictures ZLIB::ZLIB)

@@ -1,0 +1,88 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+#include "extract/chunk_arena.h"
+
+namespace nacre {
+
+/// Elements appended one after the other, in chunks of an arena: nothing moves while it grows.
+template <class Element>
+class ChunkedStream {
+ public:
+  /// Room for `count` more elements, at most `kFirstChunk`; `commit` says how many were written.
+  Element* room(std::size_t count, ChunkArena& arena) {
+    if (static_cast<std::size_t>(end_ - cursor_) < count) add_chunk(arena);
+    return cursor_;
+  }
+  void commit(std::size_t count) { cursor_ += count; }
+
+  std::size_t size() const {
+    std::size_t sum = static_cast<std::size_t>(cursor_ - begin_);
+    for (const std::span<Element> chunk : full_) sum += chunk.size();
+    return sum;
+  }
+
+  /// Calls `function(std::span<Element>)` with each chunk in order.
+  template <class Function>
+  void for_each_chunk(Function&& function) {
+    for (const std::span<Element> chunk : full_) function(chunk);
+    function(std::span<Element>(begin_, cursor_));
+  }
+
+ private:
+  static constexpr std::size_t kFirstChunk = 64;
+  static constexpr std::size_t kLargestChunk = 4096;
+
+  void add_chunk(ChunkArena& arena) {
+    if (begin_ != nullptr) full_.emplace_back(begin_, cursor_);
+    begin_ = cursor_ = static_cast<Element*>(arena.allocate(next_chunk_ * sizeof(Element)));
+    end_ = begin_ + next_chunk_;
+    next_chunk_ = std::min(2 * next_chunk_, kLargestChunk);
+  }
+
+  std::vector<std::span<Element>> full_;
+  Element* begin_ = nullptr;
+  Element* cursor_ = nullptr;
+  Element* end_ = nullptr;
+  std::size_t next_chunk_ = kFirstChunk;
+};
+
+/// One level's surface as one slab of the sweep makes it.
+///
+/// Vertices are numbered within the slab: first those of the slab's lowest slice, which the slab
+/// below makes too and which only that one writes (*shared* ones), then the slab's own.
+struct LevelOutput {
+  ChunkedStream<glm::vec3> positions;   ///< of the slab's own vertices
+  ChunkedStream<glm::uvec3> triangles;  ///< indices within the slab
+  std::uint64_t next_vertex = 0;
+  std::uint64_t shared_count = 0;  ///< vertices of the lowest slice; 0 in the first slab
+  std::uint64_t top_begin = 0;     ///< first vertex of the highest slice
+
+  std::uint32_t new_vertex() { return static_cast<std::uint32_t>(next_vertex++); }
+};
+
+/// All levels' surfaces of one slab, and the memory they lie in.
+struct SlabOutput {
+  explicit SlabOutput(std::size_t level_count = 0) : levels(level_count) {}
+
+  void write_position(std::size_t k, const glm::dvec3& position_mm) {
+    *levels[k].positions.room(1, arena) = glm::vec3(position_mm);
+    levels[k].positions.commit(1);
+  }
+
+  void write_triangle(std::size_t k, const glm::uvec3& triangle) {
+    *levels[k].triangles.room(1, arena) = triangle;
+    levels[k].triangles.commit(1);
+  }
+
+  std::vector<LevelOutput> levels;
+  ChunkArena arena;
+};
+
+}  // namespace nacre

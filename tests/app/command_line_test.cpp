@@ -1,0 +1,191 @@
+// The command as a user has it: exit statuses, one-line errors, nothing left behind.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "io/picture_file.h"
+#include "io/png_picture.h"
+#include "tests/support/run_command.h"
+#include "tests/support/scratch_folder.h"
+
+namespace nacre {
+namespace {
+
+using nlohmann::json;
+using testing::CommandResult;
+using testing::ScratchFolder;
+
+/// Runs nacre in a folder of its own, which starts with a small phantom in it.
+class Command : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_EQ(nacre("phantom spheres --size 20,18,16 -o ball.nii").status, 0);
+  }
+
+  CommandResult nacre(const std::string& arguments) const {
+    return testing::run_command(NACRE_BINARY, arguments, folder_.path());
+  }
+
+  /// The command fails with this status and one line that holds `part`, and leaves no file.
+  void expect_refusal(const std::string& arguments, int status, const std::string& part) const {
+    const std::size_t files = folder_.file_count();
+    const CommandResult result = nacre(arguments);
+    EXPECT_EQ(result.status, status) << arguments << "\n" << result.errors;
+    EXPECT_NE(result.errors.find(part), std::string::npos) << arguments << "\n" << result.errors;
+    EXPECT_EQ(std::count(result.errors.begin(), result.errors.end(), '\n'), 1) << result.errors;
+    EXPECT_EQ(result.errors.rfind("nacre: ", 0), 0u) << result.errors;
+    EXPECT_EQ(folder_.file_count(), files) << arguments << " left a file";
+  }
+
+  ScratchFolder folder_;
+};
+
+TEST_F(Command, SaysItsVersionAndExplainsEveryVerb) {
+  EXPECT_EQ(nacre("--version").output, "nacre " NACRE_VERSION "\n");
+  EXPECT_EQ(nacre("-h").status, 0);
+  for (const char* verb : {"phantom", "reference", "render", "compare", "info"}) {
+    const CommandResult help = nacre(std::string(verb) + " -h");
+    EXPECT_EQ(help.status, 0) << verb;
+    EXPECT_NE(help.output.find("Example: nacre "), std::string::npos) << verb;
+  }
+}
+
+TEST_F(Command, WrongUseIsStatusTwo) {
+  expect_refusal("frobnicate", 2, "frobnicate");
+  expect_refusal("reference", 2, "VOLUME");
+  expect_refusal("reference ball.nii", 2, "-o");
+  expect_refusal("reference ball.nii -o a.jpg", 2, ".png, .tif");
+  expect_refusal("reference ball.nii -o a.png --window 5", 2, "LO,HI");
+  expect_refusal("reference ball.nii -o a.png --window 5,5", 2, "LO < HI");
+  expect_refusal("reference ball.nii -o a.png --window 5,nan", 2, "window");
+  expect_refusal("reference ball.nii -o a.png --map 1:0,2", 2, "VALUE:EMISSION");
+  expect_refusal("reference ball.nii -o a.png --size 0x5", 2, "--size");
+  expect_refusal("reference ball.nii -o a.png --size 5", 2, "WxH");
+  expect_refusal("reference ball.nii -o a.png --view front", 2, "anterior");
+  expect_refusal("reference ball.nii -o a.png --zoom 0", 2, "zoom");
+  expect_refusal("reference ball.nii -o a.png --azimuth x", 2, "azimuth");
+  expect_refusal("reference ball.nii -o a.png --perspective 180", 2, "field of view");
+  expect_refusal("reference ball.nii -o a.png --distance 100", 2, "perspective");
+  expect_refusal("reference ball.nii -o a.png --slab 5,-5", 2, "NEAR < FAR");
+  expect_refusal("reference ball.nii -o a.png --look-at 1,2", 2, "X,Y,Z");
+  expect_refusal("reference ball.nii -o a.png --mode average", 2, "max or sum");
+  expect_refusal("reference ball.nii -o a.png --colormap jet", 2, "jet");
+  expect_refusal("reference ball.nii -o a.png --turntable 5", 2, "%03d");
+  expect_refusal("reference ball.nii -o a.png --crop 0,99,0,1,0,1", 2, "crop");
+  expect_refusal("reference ball.nii -o a.png --threads 0", 2, "threads");
+  expect_refusal("reference ball.nii -o no/such/folder/a.png", 2, "cannot be created");
+  expect_refusal("reference ball.nii -o a.png --frobnicate", 2, "frobnicate");
+  expect_refusal("phantom", 2, "NAME");
+  expect_refusal("phantom unicorn -o a.nii", 2, "unicorn");
+  expect_refusal("phantom spheres -o a.doc", 2, ".nrrd");
+  expect_refusal("phantom spheres -o a.nii --size 5,5", 2, "X,Y,Z");
+  EXPECT_EQ(nacre("").status, 2);
+}
+
+TEST_F(Command, BadInputIsStatusThree) {
+  folder_.write("empty.nii", "");
+  folder_.write("text.nii.gz", "this is no volume");
+  folder_.write("short.raw", "123");
+  for (const char* verb : {"reference", "render", "info"}) {
+    const std::string output = std::string(verb) == "info" ? "" : " -o a.png";
+    expect_refusal(std::string(verb) + " none.nii" + output, 3, "none.nii");
+    expect_refusal(std::string(verb) + " empty.nii" + output, 3, "empty.nii");
+    expect_refusal(std::string(verb) + " text.nii.gz" + output, 3, "text.nii.gz");
+    expect_refusal(std::string(verb) + " short.raw --raw 2,2,2,u8" + output, 3, "short.raw");
+  }
+  expect_refusal("compare none.tif ball.png", 3, "none.tif");
+}
+
+TEST_F(Command, ReferenceWritesWhatItSays) {
+  const CommandResult result =
+      nacre("reference ball.nii --window 0,28 --size 40x30 -o a.tif --json -");
+  ASSERT_EQ(result.status, 0) << result.errors;
+  const json figures = json::parse(result.output);
+  EXPECT_EQ(figures["backend"], "exact");
+  EXPECT_EQ(figures["seconds"]["frames"].size(), 1u);
+  EXPECT_EQ(figures["window"], json({0.0, 28.0}));
+  const PictureFile picture = read_picture(folder_.path() / "a.tif");
+  EXPECT_EQ(picture.image.width, 40);
+  EXPECT_EQ(picture.image.height, 30);
+  EXPECT_EQ(picture.mode, PictureMode::Max);
+  EXPECT_NEAR(figures["picture"]["greatest"].get<double>(),
+              *std::max_element(picture.image.pixels.begin(), picture.image.pixels.end()), 1e-6);
+}
+
+TEST_F(Command, RenderExactIsTheReferenceBitForBit) {
+  ASSERT_EQ(nacre("reference ball.nii --azimuth 20 --size 32x32 -o a.tif").status, 0);
+  ASSERT_EQ(
+      nacre("render ball.nii --method exact --azimuth 20 --size 32x32 --threads 1 -o b.tif").status,
+      0);
+  EXPECT_EQ(testing::read_bytes(folder_.path() / "a.tif"),
+            testing::read_bytes(folder_.path() / "b.tif"));
+}
+
+TEST_F(Command, TurntableNumbersItsPictures) {
+  ASSERT_EQ(nacre("reference ball.nii --size 8x8 --turntable 3 -o t%02d.png").status, 0);
+  for (const char* name : {"t00.png", "t01.png", "t02.png"}) {
+    EXPECT_EQ(read_png(folder_.path() / name).width, 8) << name;
+  }
+  const CommandResult timing = nacre("reference ball.nii --size 8x8 --turntable 5 --json -");
+  EXPECT_EQ(json::parse(timing.output)["seconds"]["frames"].size(), 5u);
+}
+
+TEST_F(Command, CompareMeasuresAndJudges) {
+  ASSERT_EQ(nacre("reference ball.nii --window 0,28 --size 32x32 -o a.tif").status, 0);
+  ASSERT_EQ(nacre("reference ball.nii --window 0,30 --size 32x32 -o b.tif").status, 0);
+  const CommandResult same = nacre("compare a.tif a.tif --min-psnr 100 --max-rmse 0 --json -");
+  EXPECT_EQ(same.status, 0);
+  EXPECT_TRUE(json::parse(same.output)["all"]["psnr_db"].is_null());
+  const CommandResult other = nacre("compare b.tif a.tif -o d.png --json f.json");
+  EXPECT_EQ(other.status, 0);
+  EXPECT_EQ(read_png(folder_.path() / "d.png").channels, 3);
+  const json figures = json::parse(testing::read_bytes(folder_.path() / "f.json"));
+  EXPECT_GT(figures["all"]["rmse"].get<double>(), 0.0);
+  EXPECT_LT(figures["all"]["bias"].get<double>(), 0.0);
+  EXPECT_EQ(nacre("compare b.tif a.tif --min-psnr 90").status, 1);
+  EXPECT_EQ(nacre("compare b.tif a.tif --max-rmse 1e-9").status, 1);
+}
+
+TEST_F(Command, CompareRefusesOtherSizes) {
+  ASSERT_EQ(nacre("reference ball.nii --size 16x16 -o a.tif").status, 0);
+  ASSERT_EQ(nacre("reference ball.nii --size 16x17 -o b.tif").status, 0);
+  expect_refusal("compare a.tif b.tif -o d.png", 2, "16 x 17");
+}
+
+TEST_F(Command, InfoTellsShapeUnitsAndOrientation) {
+  const CommandResult result = nacre("info ball.nii --json -");
+  ASSERT_EQ(result.status, 0);
+  const json figures = json::parse(result.output);
+  EXPECT_EQ(figures["kind"], "volume");
+  EXPECT_EQ(figures["volume"]["dims"], json({20, 18, 16}));
+  EXPECT_EQ(figures["volume"]["type"], "f32");
+  EXPECT_EQ(figures["orientation"], "LPS");
+  EXPECT_EQ(figures["frame"], "LPS, mm");
+}
+
+TEST_F(Command, QuietSaysNothingAndAPipeSeesNoProgress) {
+  const CommandResult quiet = nacre("reference ball.nii -q -o a.png");
+  EXPECT_EQ(quiet.output, "");
+  EXPECT_EQ(quiet.errors, "");
+  const CommandResult loud = nacre("reference ball.nii --size 600x600 -o a.png");
+  EXPECT_EQ(loud.errors, "");
+  const CommandResult shown = nacre("reference ball.nii --progress always -o a.png");
+  EXPECT_NE(shown.errors.find("rays"), std::string::npos);
+}
+
+TEST_F(Command, EveryFormatGivesTheSamePicture) {
+  if (!NACRE_HAS_ITK) GTEST_SKIP() << "built without ITK: NIfTI is the only format";
+  ASSERT_EQ(nacre("reference ball.nii --size 16x16 -o nii.tif").status, 0);
+  for (const std::string format : {"nrrd", "nhdr", "mha", "mhd", "nii.gz"}) {
+    ASSERT_EQ(nacre("phantom spheres --size 20,18,16 -o b." + format).status, 0) << format;
+    ASSERT_EQ(nacre("reference b." + format + " --size 16x16 -o b.tif").status, 0) << format;
+    EXPECT_EQ(testing::read_bytes(folder_.path() / "b.tif"),
+              testing::read_bytes(folder_.path() / "nii.tif"))
+        << format;
+  }
+}
+
+}  // namespace
+}  // namespace nacre
