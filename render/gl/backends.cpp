@@ -22,6 +22,10 @@ struct NamedBackend {
 constexpr std::array<NamedBackend, 3> kBackends{
     {{Backend::Auto, "auto"}, {Backend::Egl, "egl"}, {Backend::OsMesa, "osmesa"}}};
 
+/// What GL_RENDERER says of the known software renderers.
+constexpr std::array<std::string_view, 6> kSoftware{"llvmpipe", "softpipe",    "swrast",
+                                                    "Software", "SwiftShader", "SWR"};
+
 /// A context that might open.
 struct Candidate {
   Backend backend = Backend::OsMesa;
@@ -66,8 +70,6 @@ std::string text(const GlFunctions& gl, unsigned what) {
 
 /// Whether GL_RENDERER names one of the known software renderers.
 bool is_software(std::string_view renderer) {
-  constexpr std::array<std::string_view, 6> kSoftware{"llvmpipe", "softpipe",    "swrast",
-                                                      "Software", "SwiftShader", "SWR"};
   return std::any_of(kSoftware.begin(), kSoftware.end(), [&](std::string_view known) {
     return renderer.find(known) != std::string_view::npos;
   });

@@ -40,9 +40,9 @@ DepthTarget::DepthTarget(const GlFunctions& gl, const glm::ivec2& size, DepthFor
   }
 }
 
-void DepthTarget::begin() const {
+void DepthTarget::begin(const glm::ivec2& viewport) const {
   gl_->bind_framebuffer(GL_FRAMEBUFFER, framebuffer_.id());
-  gl_->viewport(0, 0, size_.x, size_.y);
+  gl_->viewport(0, 0, viewport.x, viewport.y);
   gl_->clear_depth(0.0);
   gl_->clear(GL_DEPTH_BUFFER_BIT);
 }

@@ -18,10 +18,11 @@ class DepthTarget {
   const glm::ivec2& size() const noexcept { return size_; }
   DepthFormat format() const noexcept { return format_; }
 
-  /// Makes it the target, the viewport all of it, and every depth 0.
-  void begin() const;
+  /// Makes it the target, the viewport its first rows and columns, and every depth 0.
+  /// @pre  not larger than `size()`
+  void begin(const glm::ivec2& viewport) const;
 
-  /// Depths in [0, 1], waiting until they are drawn.
+  /// Depths in [0, 1] of its first rows and columns, waiting until they are drawn.
   /// @param depths      the upper left one of where they go, first row first
   /// @param row_length  elements from one row of `depths` to the next
   void read(const glm::ivec2& size, float* depths, int row_length) const;

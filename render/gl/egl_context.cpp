@@ -152,20 +152,20 @@ class EglContext final : public GlContext {
   }
 
   void create_context(EGLConfig config) {
-    constexpr std::array<EGLint, 7> kAttributes{EGL_CONTEXT_MAJOR_VERSION,
-                                                3,
-                                                EGL_CONTEXT_MINOR_VERSION,
-                                                3,
-                                                EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                                                EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                                EGL_NONE};
-    context_ = egl_.create_context(display_, config, EGL_NO_CONTEXT, kAttributes.data());
+    const std::array<EGLint, 7> attributes{EGL_CONTEXT_MAJOR_VERSION,
+                                           3,
+                                           EGL_CONTEXT_MINOR_VERSION,
+                                           3,
+                                           EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                           EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                           EGL_NONE};
+    context_ = egl_.create_context(display_, config, EGL_NO_CONTEXT, attributes.data());
     if (context_ == EGL_NO_CONTEXT) egl_.refuse("refused a context of OpenGL 3.3 core");
   }
 
   void create_surface(EGLConfig config) {
-    constexpr std::array<EGLint, 5> kAttributes{EGL_WIDTH, 1, EGL_HEIGHT, 1, EGL_NONE};
-    surface_ = egl_.create_pbuffer(display_, config, kAttributes.data());
+    const std::array<EGLint, 5> attributes{EGL_WIDTH, 1, EGL_HEIGHT, 1, EGL_NONE};
+    surface_ = egl_.create_pbuffer(display_, config, attributes.data());
     if (surface_ == EGL_NO_SURFACE) {
       egl_.destroy_context(display_, context_);
       egl_.refuse("refused a surface of one pixel");

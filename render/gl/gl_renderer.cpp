@@ -4,8 +4,8 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
-#include <cmath>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -28,17 +28,18 @@ constexpr int kMaxTargetSide = 8192;
 
 Capabilities query_capabilities(const GlFunctions& gl) {
   int renderbuffer = 0;
-  int viewport[2] = {0, 0};
+  std::array<int, 2> viewport{};
   gl.get_integerv(GL_MAX_RENDERBUFFER_SIZE, &renderbuffer);
-  gl.get_integerv(GL_MAX_VIEWPORT_DIMS, viewport);
+  gl.get_integerv(GL_MAX_VIEWPORT_DIMS, viewport.data());
   return {std::min({kMaxTargetSide, renderbuffer, viewport[0], viewport[1]})};
 }
 
 /// Turns depths d = rank / n, in place, into the emission each rank stands for.
 void look_up(std::span<float> depths, const std::vector<float>& emission_of_rank) {
   const auto ranks = static_cast<float>(emission_of_rank.size() - 1);
+  const float half = 0.5F;  // to the nearest; std::lround is a call a pixel
   for (float& depth : depths) {
-    depth = emission_of_rank[static_cast<std::size_t>(depth * ranks + 0.5F)];
+    depth = emission_of_rank[static_cast<std::size_t>(depth * ranks + half)];
   }
 }
 
@@ -70,8 +71,9 @@ class GlRenderer::Drawing {
   void upload(const ShellSet& set, SceneFacts facts, std::span<const std::uint32_t> shells) {
     const CurrentContext current(*opened_.context);
     buffers_.reset();
-    scene_ = std::move(facts);
+    scene_ = {};  // what stays if there is no room for the new set
     buffers_.emplace(gl_, set, shells);
+    scene_ = std::move(facts);
   }
 
   Image render(const Camera& camera, const Plan& plan) {
@@ -81,6 +83,8 @@ class GlRenderer::Drawing {
     frame_ = {};
     for (const Pass& pass : plan.passes) check(pass);
     if (!plan.passes.empty()) {
+      // The first tile is the largest; the others use a part of its target.
+      prepare_target({plan.tiles.front().width, plan.tiles.front().height}, plan.depth);
       for (const PixelRect& tile : plan.tiles) draw_tile(camera, plan, tile, image);
       look_up(image.pixels, plan.emission_of_rank);
       check_gl(gl_, "drawing");
@@ -107,9 +111,8 @@ class GlRenderer::Drawing {
   }
 
   void draw_tile(const Camera& camera, const Plan& plan, const PixelRect& tile, Image& image) {
-    prepare_target({tile.width, tile.height}, plan.depth);
     const glm::mat4 clip(clip_from_local(camera, scene_.center_mm, tile));
-    target_->begin();
+    target_->begin({tile.width, tile.height});
     for (const Pass& pass : plan.passes) {
       max_pass_.draw(pass, *buffers_, clip, camera.perspective);
       count(pass);

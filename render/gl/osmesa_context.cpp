@@ -39,10 +39,10 @@ struct OsMesaFunctions {
 class OsMesaContext final : public GlContext {
  public:
   OsMesaContext() : library_({"libOSMesa.so.8", "libOSMesa.so.6"}), osmesa_(library_) {
-    constexpr std::array<int, 10> kAttributes{
+    const std::array<int, 10> attributes{
         kFormat, kRgba, kProfile, kCoreProfile, kContextMajorVersion, 3, kContextMinorVersion,
         3,       0,     0};
-    context_ = osmesa_.create(kAttributes.data(), nullptr);
+    context_ = osmesa_.create(attributes.data(), nullptr);
     if (context_ == nullptr) {
       throw Error(ErrorCode::Unsupported, "OSMesa: refused a context of OpenGL 3.3 core");
     }

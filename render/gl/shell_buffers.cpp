@@ -8,6 +8,12 @@
 #include "core/error.h"
 
 namespace nacre {
+namespace {
+
+/// OpenGL counts the corners of a draw in an int.
+constexpr std::size_t kMost = std::numeric_limits<int>::max();
+
+}  // namespace
 
 ShellBuffers::ShellBuffers(const GlFunctions& gl, const ShellSet& set,
                            std::span<const std::uint32_t> shells)
@@ -21,7 +27,6 @@ ShellBuffers::ShellBuffers(const GlFunctions& gl, const ShellSet& set,
 }
 
 void ShellBuffers::place(const ShellSet& set, std::span<const std::uint32_t> shells) {
-  constexpr std::size_t kMost = std::numeric_limits<int>::max();
   for (const std::uint32_t shell : shells) {
     const TriangleMesh& surface = set.shells.at(shell).surface;
     Part& part = parts_[shell];
@@ -76,9 +81,12 @@ void ShellBuffers::bind() const { gl_->bind_vertex_array(array_.id()); }
 
 void ShellBuffers::draw(std::uint32_t shell) const {
   const Part& part = parts_[shell];
+  // OpenGL takes the offset into the index buffer as a pointer.
   const std::uintptr_t offset = part.first_index * sizeof(std::uint32_t);
-  gl_->draw_elements_base_vertex(GL_TRIANGLES, part.index_count, GL_UNSIGNED_INT,
-                                 reinterpret_cast<const void*>(offset), part.base_vertex);
+  gl_->draw_elements_base_vertex(
+      GL_TRIANGLES, part.index_count, GL_UNSIGNED_INT,
+      reinterpret_cast<const void*>(offset),  // NOLINT(performance-no-int-to-ptr)
+      part.base_vertex);
 }
 
 }  // namespace nacre

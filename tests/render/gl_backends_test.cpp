@@ -111,6 +111,7 @@ TEST(Backends, RenderersWorkAtTheSameTimeInThreads) {
     std::array<std::size_t, 3> differing{};
     {
       std::vector<std::jthread> threads;
+      threads.reserve(differing.size());
       for (std::size_t& count : differing) {
         threads.emplace_back([&count, &expected, kind] {
           GlRenderer own(kind);

@@ -41,24 +41,24 @@ bool has_backend(Backend backend) {
   }
 }
 
-std::unique_ptr<GlRenderer> GlTest::renderer_;
+std::unique_ptr<GlRenderer> GlTest::shared_renderer;
 
 void GlTest::SetUp() {
-  if (renderer_ != nullptr) return;
+  if (shared_renderer != nullptr) return;
   try {
-    renderer_ = std::make_unique<GlRenderer>(test_backend());
+    shared_renderer = std::make_unique<GlRenderer>(test_backend());
   } catch (const Error& error) {
     ASSERT_EQ(wanted_backend(), nullptr) << error.what();
     GTEST_SKIP() << "no OpenGL on this machine: " << error.what();
   }
-  RecordProperty("renderer", renderer_->info().renderer);
+  RecordProperty("renderer", shared_renderer->info().renderer);
 }
 
-void GlTest::TearDownTestSuite() { renderer_.reset(); }
+void GlTest::TearDownTestSuite() { shared_renderer.reset(); }
 
 Image GlTest::draw(const ShellSet& set, const Camera& camera, const RenderOptions& options) {
-  renderer_->upload(set);
-  return renderer_->render(camera, options);
+  shared_renderer->upload(set);
+  return shared_renderer->render(camera, options);
 }
 
 void expect_matches_rays(const ShellSet& set, const Camera& camera, const Image& image,

@@ -28,10 +28,10 @@ class GlTest : public ::testing::Test {
   /// Uploads the set and draws it.
   static Image draw(const ShellSet& set, const Camera& camera, const RenderOptions& options = {});
 
-  static GlRenderer& renderer() { return *renderer_; }
+  static GlRenderer& renderer() { return *shared_renderer; }
 
  private:
-  static std::unique_ptr<GlRenderer> renderer_;
+  static std::unique_ptr<GlRenderer> shared_renderer;
 };
 
 /// How much of a picture to check against rays.

@@ -113,13 +113,13 @@ TEST(Projection, SeesNoBoxBehindAPerspectiveEye) {
 
 TEST(Tiles, CoverThePictureOnce) {
   for (const glm::ivec2& size : {glm::ivec2(1, 1), glm::ivec2(100, 37), glm::ivec2(64, 64)}) {
-    std::vector<int> covered(static_cast<std::size_t>(size.x * size.y));
+    std::vector<int> covered(std::size_t(size.x) * std::size_t(size.y));
     for (const PixelRect& rect : tiles(size, 32)) {
       EXPECT_LE(rect.width, 32);
       EXPECT_LE(rect.height, 32);
       for (int y = rect.y; y < rect.y + rect.height; ++y) {
         for (int x = rect.x; x < rect.x + rect.width; ++x) {
-          ++covered[static_cast<std::size_t>(x + size.x * y)];
+          ++covered[std::size_t(x) + std::size_t(size.x) * std::size_t(y)];
         }
       }
     }

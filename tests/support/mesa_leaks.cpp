@@ -2,8 +2,8 @@
 //
 // OSMesaDestroyContext (Mesa 22.3) never frees the context's last window buffer, some hundred bytes
 // a context; libOSMesa calls nothing of ours, so what is allocated below it is not ours.
-extern "C" const char* __lsan_default_suppressions();  // NOLINT(bugprone-reserved-identifier)
+extern "C" const char* __lsan_default_suppressions();  // NOLINT
 
-extern "C" const char* __lsan_default_suppressions() {  // NOLINT(bugprone-reserved-identifier)
+extern "C" const char* __lsan_default_suppressions() {  // NOLINT
   return "leak:libOSMesa.so\n";
 }

@@ -82,6 +82,7 @@ TriangleMesh ring_mesh(const glm::dvec3& center, double major_radius, double min
 TriangleMesh join(TriangleMesh a, const TriangleMesh& b) {
   const auto offset = static_cast<std::uint32_t>(a.positions.size());
   a.positions.insert(a.positions.end(), b.positions.begin(), b.positions.end());
+  a.triangles.reserve(a.triangles.size() + b.triangles.size());
   for (const glm::uvec3& triangle : b.triangles) a.triangles.push_back(triangle + offset);
   return a;
 }
