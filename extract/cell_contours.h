@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
+
+#include "extract/cell_row.h"
+#include "extract/cell_topology.h"
+#include "extract/corner_field.h"
+#include "extract/level_output.h"
+#include "extract/sample_reader.h"
+#include "extract/sweep_grid.h"
+
+namespace nacre {
+
+/// Last passes of the sweep: the triangles of all levels in a row of cells, and those of the caps
+/// where the row lies at the volume's border.
+class CellContours {
+ public:
+  /// @param crossings   stored value of each level, see `StoredLevels`
+  /// @param descending  inside is where stored samples are small
+  CellContours(const SweepGrid& grid, const SampleReader& samples,
+               std::span<const double> crossings, bool descending)
+      : grid_(grid), samples_(samples), crossings_(crossings), descending_(descending) {}
+
+  void add_row(const CellRow& row, SlabOutput& output) const;
+  void add_caps(const CellRow& row, SlabOutput& output) const;
+
+ private:
+  struct Cell;
+
+  void add_cell(const CellRow& row, std::size_t x, std::size_t lo, std::size_t hi,
+                SlabOutput& output) const;
+  void add_ambiguous(const Cell& cell, LevelOutput& output) const;
+  void add_disc(const Cell& cell, const CornerField& field, const CellLoop& loop,
+                LevelOutput& output) const;
+  void add_tube(const Cell& cell, const CornerField& field, const CellCase& resolved,
+                const Tunnel& tunnel, LevelOutput& output) const;
+  void add_cap(const CellRow& row, std::size_t x, std::size_t face, SlabOutput& output) const;
+
+  CornerField field(const Cell& cell) const;
+  std::uint32_t add_inner_vertex(const Cell& cell, const glm::dvec3& p_cell,
+                                 LevelOutput& output) const;
+  void add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, LevelOutput& output) const;
+
+  const SweepGrid& grid_;
+  const SampleReader& samples_;
+  std::span<const double> crossings_;
+  bool descending_;
+  const CellTopology& topology_ = CellTopology::instance();
+};
+
+}  // namespace nacre

@@ -1,0 +1,72 @@
+#include "extract/cell_row.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace nacre {
+
+CellRow::CellRow(const SweepGrid& grid, std::size_t y, std::size_t z, const LatticeSlice& lower,
+                 const LatticeSlice& upper, const LatticeGap& gap)
+    : y_(y), z_(z) {
+  const std::size_t nx = grid.dims[0];
+  const std::array<const LatticeSlice*, 2> slices{&lower, &upper};
+  for (std::size_t row = 0; row < 4; ++row) {
+    const std::size_t row_y = y + (row & 1);
+    classes_[row] = slices[row >> 1]->classes.data() + nx * row_y;
+    bricks_[row] = slices[row >> 1]->bricks.data() + brick_count(nx) * row_y;
+  }
+  for (std::size_t edge = 0; edge < kCellEdges; ++edge) {
+    const std::size_t corner = kEdgesOfCell[edge][0];  // the end that names a lattice edge
+    const LatticeSlice& slice = *slices[corner >> 2];
+    const std::size_t offset = (corner & 1) + nx * (y + (corner >> 1 & 1));
+    switch (edge / 4) {
+      case 0: edges_[edge] = {slice.x_edges.get() + offset, slice.ids.data()}; break;
+      case 1: edges_[edge] = {slice.y_edges.get() + offset, slice.ids.data()}; break;
+      default: edges_[edge] = {gap.z_edges.get() + offset, gap.ids.data()}; break;
+    }
+  }
+  for (std::size_t corner = 0; corner < kCellCorners; ++corner) {
+    const LatticeSlice& slice = *slices[corner >> 2];
+    const std::size_t offset = (corner & 1) + nx * (y + (corner >> 1 & 1));
+    corners_[corner] = {slice.corners.get() + offset, slice.ids.data()};
+  }
+}
+
+std::uint64_t CellRow::corner_classes(std::size_t x) const {
+  std::uint64_t packed = 0;
+  for (std::size_t row = 0; row < 4; ++row) {
+    std::uint16_t pair = 0;
+    std::memcpy(&pair, classes_[row] + x, 2);
+    packed |= std::uint64_t{pair} << (16 * row);
+  }
+  return packed;
+}
+
+ClassRange CellRow::brick_range(std::size_t brick) const {
+  ClassRange range = bricks_[0][brick];
+  for (std::size_t row = 1; row < 4; ++row) {
+    range.lo = std::min(range.lo, bricks_[row][brick].lo);
+    range.hi = std::max(range.hi, bricks_[row][brick].hi);
+  }
+  return range;
+}
+
+void CellRow::cell_ranges(std::size_t brick, std::uint8_t* lo, std::uint8_t* hi) const {
+  const std::size_t begin = brick * kBrickCells;
+  std::array<std::uint8_t, kBrickCells + 1> column_lo;
+  std::array<std::uint8_t, kBrickCells + 1> column_hi;
+  for (std::size_t i = 0; i <= kBrickCells; ++i) {
+    const std::uint8_t a = classes_[0][begin + i];
+    const std::uint8_t b = classes_[1][begin + i];
+    const std::uint8_t c = classes_[2][begin + i];
+    const std::uint8_t d = classes_[3][begin + i];
+    column_lo[i] = std::min(std::min(a, b), std::min(c, d));
+    column_hi[i] = std::max(std::max(a, b), std::max(c, d));
+  }
+  for (std::size_t i = 0; i < kBrickCells; ++i) {
+    lo[i] = std::min(column_lo[i], column_lo[i + 1]);
+    hi[i] = std::max(column_hi[i], column_hi[i + 1]);
+  }
+}
+
+}  // namespace nacre

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "extract/cell_topology.h"
+#include "extract/lattice_slice.h"
+#include "extract/sweep_grid.h"
+
+namespace nacre {
+
+/// The row of cells (., y, z) between two classified slices: classes of its four rows of samples,
+/// and the vertices on its cells' edges and border corners.
+class CellRow {
+ public:
+  CellRow(const SweepGrid& grid, std::size_t y, std::size_t z, const LatticeSlice& lower,
+          const LatticeSlice& upper, const LatticeGap& gap);
+
+  std::size_t y() const { return y_; }
+  std::size_t z() const { return z_; }
+
+  /// The classes of cell x's corners, corner i in byte i.
+  std::uint64_t corner_classes(std::size_t x) const;
+
+  /// Vertex of level k on an edge of cell x.
+  std::uint32_t edge_vertex(std::size_t edge, std::size_t x, std::size_t k) const {
+    const Vertices& vertices = edges_[edge];
+    return vertices.ids[static_cast<std::uint32_t>(vertices.handles[x] + k)];
+  }
+
+  /// Vertex of level k at a corner of cell x on the volume's border.
+  std::uint32_t corner_vertex(std::size_t corner, std::size_t x, std::size_t k) const {
+    const Vertices& vertices = corners_[corner];
+    return vertices.ids[static_cast<std::uint32_t>(vertices.handles[x] + k)];
+  }
+
+  /// The joint class range of the row's four bricks.
+  ClassRange brick_range(std::size_t brick) const;
+
+  /// The class range of each cell of a brick. Writes whole bricks, also where the row ends.
+  void cell_ranges(std::size_t brick, std::uint8_t* lo, std::uint8_t* hi) const;
+
+ private:
+  struct Vertices {
+    const std::uint32_t* handles = nullptr;
+    const std::uint32_t* ids = nullptr;
+  };
+
+  std::size_t y_;
+  std::size_t z_;
+  std::array<const std::uint8_t*, 4> classes_{};  ///< of the rows y z, y+1 z, y z+1, y+1 z+1
+  std::array<const ClassRange*, 4> bricks_{};
+  std::array<Vertices, kCellEdges> edges_;
+  std::array<Vertices, kCellCorners> corners_;
+};
+
+}  // namespace nacre

@@ -1,0 +1,97 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <limits>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace nacre {
+
+/// Elements appended one after the other, in chunks: nothing moves while it grows, and a chunk is
+/// given back as soon as it has been copied out.
+template <class Element>
+class ChunkedStream {
+ public:
+  /// Room for `count` more elements, at most `kFirstChunk`; `commit` says how many were written.
+  Element* room(std::size_t count) {
+    if (static_cast<std::size_t>(end_ - cursor_) < count) add_chunk();
+    return cursor_;
+  }
+  void commit(std::size_t count) { cursor_ += count; }
+
+  std::size_t size() const {
+    std::size_t sum = static_cast<std::size_t>(cursor_ - begin_);
+    for (const Chunk& chunk : full_) sum += chunk.size;
+    return sum;
+  }
+
+  /// Calls `function(std::span<Element>)` with each chunk in order, freeing it afterwards.
+  template <class Function>
+  void drain(Function&& function) {
+    close_chunk();
+    for (Chunk& chunk : full_) {
+      function(std::span<Element>(chunk.elements.get(), chunk.size));
+      chunk.elements.reset();
+    }
+    full_.clear();
+  }
+
+ private:
+  static constexpr std::size_t kFirstChunk = 256;
+  static constexpr std::size_t kLargestChunk = std::size_t{1} << 14;
+
+  struct Chunk {
+    std::unique_ptr<Element[]> elements;
+    std::size_t size = 0;
+  };
+
+  void close_chunk() {
+    if (!current_) return;
+    full_.push_back({std::move(current_), static_cast<std::size_t>(cursor_ - begin_)});
+    begin_ = cursor_ = end_ = nullptr;
+  }
+
+  void add_chunk() {
+    close_chunk();
+    current_ = std::make_unique_for_overwrite<Element[]>(next_chunk_);
+    begin_ = cursor_ = current_.get();
+    end_ = begin_ + next_chunk_;
+    next_chunk_ = std::min(2 * next_chunk_, kLargestChunk);
+  }
+
+  std::vector<Chunk> full_;
+  std::unique_ptr<Element[]> current_;
+  Element* begin_ = nullptr;
+  Element* cursor_ = nullptr;
+  Element* end_ = nullptr;
+  std::size_t next_chunk_ = kFirstChunk;
+};
+
+/// One level's surface as one slab of the sweep makes it.
+///
+/// Vertices are numbered within the slab: first those of the slab's lowest slice, which the slab
+/// below makes too and which only that one writes (*shared* ones), then the slab's own.
+struct LevelOutput {
+  ChunkedStream<glm::vec3> positions;   ///< of the slab's own vertices
+  ChunkedStream<glm::uvec3> triangles;  ///< indices within the slab
+  std::uint64_t next_vertex = 0;
+  std::uint64_t shared_count = 0;  ///< vertices of the lowest slice; 0 in the first slab
+  std::uint64_t top_begin = 0;     ///< first vertex of the highest slice
+
+  std::uint32_t new_vertex() { return static_cast<std::uint32_t>(next_vertex++); }
+
+  void write_position(const glm::dvec3& position_mm) {
+    *positions.room(1) = glm::vec3(position_mm);
+    positions.commit(1);
+  }
+};
+
+/// All levels' surfaces of one slab.
+using SlabOutput = std::vector<LevelOutput>;
+
+}  // namespace nacre

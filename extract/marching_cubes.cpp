@@ -1,0 +1,107 @@
+#include "extract/marching_cubes.h"
+
+#include <fmt/core.h>
+#include <oneapi/tbb/enumerable_thread_specific.h>
+#include <oneapi/tbb/info.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "extract/slab_sweep.h"
+#include "extract/surface_merge.h"
+
+namespace nacre {
+namespace {
+
+/// Classes have eight bits.
+constexpr std::size_t kLevelsPerSweep = 255;
+
+/// Slabs a thread should have, so that uneven ones even out; their thickness changes no output.
+constexpr std::size_t kSlabsPerThread = 8;
+/// Thicker slabs need more memory before they are merged, thinner ones sweep more slices twice.
+constexpr std::size_t kThickestSlab = 16;
+constexpr std::size_t kThinnestSlab = 4;
+
+void check_values(std::span<const double> values) {
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    if (!std::isfinite(values[k])) {
+      throw Error(ErrorCode::BadArgument,
+                  fmt::format("contour value {}: found {}, expected a finite one", k, values[k]));
+    }
+    if (k > 0 && !(values[k] > values[k - 1])) {
+      throw Error(ErrorCode::BadArgument,
+                  fmt::format("contour value {}: found {} after {}, expected ascending values", k,
+                              values[k], values[k - 1]));
+    }
+  }
+}
+
+std::vector<Slab> cut_into_slabs(std::size_t layers) {
+  const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+  const std::size_t thickness =
+      std::clamp(layers / (kSlabsPerThread * threads), kThinnestSlab, kThickestSlab);
+  std::vector<Slab> slabs;
+  for (std::size_t begin = 0; begin < layers; begin += thickness) {
+    slabs.push_back({begin, std::min(begin + thickness, layers)});
+  }
+  return slabs;
+}
+
+/// The slabs' parts of all reached levels.
+template <class T>
+std::vector<SlabOutput> sweep(const Volume& volume, const SweepGrid& grid,
+                              const StoredLevels<T>& levels, ProgressMeter& meter) {
+  const SampleClasses<T> classes(levels);
+  const LatticeVertices<T> vertices(grid, levels, classes, samples_as<T>(volume));
+  const SampleReader samples(volume);
+  const CellContours contours(grid, samples, levels.crossings, levels.descending);
+  const std::vector<Slab> slabs = cut_into_slabs(grid.dims[2] - 1);
+  std::vector<SlabOutput> outputs(slabs.size());
+  tbb::enumerable_thread_specific<SweepWorkspace> workspaces(
+      [&grid] { return SweepWorkspace(grid); });
+  tbb::parallel_for(std::size_t{0}, slabs.size(), [&](std::size_t s) {
+    outputs[s] = sweep_slab(slabs[s], vertices, contours, levels.count, grid, workspaces.local());
+    meter.advance(slabs[s].end - slabs[s].begin);
+  });
+  return outputs;
+}
+
+/// Joins the slabs, level by level; a level's vertices and triangles are two tasks.
+void merge(std::span<SlabOutput> slabs, std::span<TriangleMesh> meshes) {
+  std::vector<SurfaceMerge> merges;
+  for (std::size_t k = 0; k < meshes.size(); ++k) merges.emplace_back(slabs, k);
+  tbb::parallel_for(std::size_t{0}, 2 * meshes.size(), [&](std::size_t task) {
+    const std::size_t k = task / 2;
+    if (task % 2 == 0) {
+      merges[k].positions(meshes[k].positions);
+    } else {
+      merges[k].triangles(meshes[k].triangles);
+    }
+  });
+}
+
+}  // namespace
+
+std::vector<TriangleMesh> extract_surfaces(const Volume& volume, std::span<const double> values,
+                                           const ProgressCallback& progress) {
+  check_values(values);
+  const SweepGrid grid = make_sweep_grid(volume);
+  const std::size_t sweeps = (values.size() + kLevelsPerSweep - 1) / kLevelsPerSweep;
+  ProgressMeter meter(progress, "extract", sweeps * (grid.dims[2] - 1));
+  std::vector<TriangleMesh> meshes(values.size());
+  for (std::size_t first = 0; first < values.size(); first += kLevelsPerSweep) {
+    const auto batch = values.subspan(first, std::min(kLevelsPerSweep, values.size() - first));
+    visit_scalar_type(volume.type, [&](auto zero) {
+      using T = decltype(zero);
+      const auto levels = stored_levels<T>(batch, volume.slope, volume.intercept);
+      std::vector<SlabOutput> slabs = sweep<T>(volume, grid, levels, meter);
+      merge(slabs, std::span(meshes).subspan(first, levels.count));
+    });
+  }
+  return meshes;
+}
+
+}  // namespace nacre

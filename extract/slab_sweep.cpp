@@ -1,0 +1,76 @@
+#include "extract/slab_sweep.h"
+
+#include <limits>
+#include <utility>
+
+#include "core/error.h"
+#include "extract/cell_row.h"
+
+namespace nacre {
+namespace {
+
+/// Numbers within a slab have 32 bits; they wrapped without harm until here.
+void check_numbers(const SlabOutput& output, const SweepWorkspace& workspace) {
+  constexpr std::uint64_t kLargest = std::numeric_limits<std::uint32_t>::max();
+  std::uint64_t largest =
+      std::max<std::uint64_t>(workspace.upper.ids.size(), workspace.gap.ids.size());
+  for (const LevelOutput& level : output) largest = std::max(largest, level.next_vertex);
+  if (largest > kLargest) {
+    throw Error(ErrorCode::Unsupported,
+                "surfaces: found more than 2^32 - 1 vertices in one slab of the volume");
+  }
+}
+
+void begin_slab(SlabOutput& output, Ownership ownership) {
+  for (LevelOutput& level : output) {
+    level.shared_count = ownership == Ownership::Shared ? level.next_vertex : 0;
+  }
+}
+
+}  // namespace
+
+template <class T>
+SlabOutput sweep_slab(const Slab& slab, const LatticeVertices<T>& vertices,
+                      const CellContours& contours, std::size_t level_count, const SweepGrid& grid,
+                      SweepWorkspace& workspace) {
+  SlabOutput output(level_count);
+  auto& [lower, upper, gap] = workspace;
+  const Ownership ownership = slab.begin == 0 ? Ownership::Own : Ownership::Shared;
+  vertices.classify(slab.begin, upper);
+  vertices.add_in_slice(slab.begin, upper, output, ownership);
+  begin_slab(output, ownership);
+
+  for (std::size_t z = slab.begin; z < slab.end; ++z) {
+    std::swap(lower, upper);
+    vertices.classify(z + 1, upper);
+    vertices.add_between(z, lower, upper, gap, output);
+    for (LevelOutput& level : output) level.top_begin = level.next_vertex;
+    vertices.add_in_slice(z + 1, upper, output, Ownership::Own);
+    check_numbers(output, workspace);
+    for (std::size_t y = 0; y + 1 < grid.dims[1]; ++y) {
+      const CellRow row(grid, y, z, lower, upper, gap);
+      contours.add_row(row, output);
+      contours.add_caps(row, output);
+    }
+  }
+  return output;
+}
+
+template SlabOutput sweep_slab(const Slab&, const LatticeVertices<std::uint8_t>&,
+                               const CellContours&, std::size_t, const SweepGrid&, SweepWorkspace&);
+template SlabOutput sweep_slab(const Slab&, const LatticeVertices<std::int8_t>&,
+                               const CellContours&, std::size_t, const SweepGrid&, SweepWorkspace&);
+template SlabOutput sweep_slab(const Slab&, const LatticeVertices<std::uint16_t>&,
+                               const CellContours&, std::size_t, const SweepGrid&, SweepWorkspace&);
+template SlabOutput sweep_slab(const Slab&, const LatticeVertices<std::int16_t>&,
+                               const CellContours&, std::size_t, const SweepGrid&, SweepWorkspace&);
+template SlabOutput sweep_slab(const Slab&, const LatticeVertices<std::uint32_t>&,
+                               const CellContours&, std::size_t, const SweepGrid&, SweepWorkspace&);
+template SlabOutput sweep_slab(const Slab&, const LatticeVertices<std::int32_t>&,
+                               const CellContours&, std::size_t, const SweepGrid&, SweepWorkspace&);
+template SlabOutput sweep_slab(const Slab&, const LatticeVertices<float>&, const CellContours&,
+                               std::size_t, const SweepGrid&, SweepWorkspace&);
+template SlabOutput sweep_slab(const Slab&, const LatticeVertices<double>&, const CellContours&,
+                               std::size_t, const SweepGrid&, SweepWorkspace&);
+
+}  // namespace nacre
