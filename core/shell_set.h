@@ -25,10 +25,11 @@ struct Shell {
 };
 
 /// The lattice all positions of a set lie on: origin + step * (i, j, k), 0 <= i, j, k < 2^bits.
+/// What it takes for that to be exact in floats: `core/quantization_grid.h`.
 struct QuantizationGrid {
   glm::dvec3 origin_mm{0.0};  ///< relative to `ShellSet::center_mm`
   double range_mm = 0.0;      ///< (2^bits - 1) * step
-  int bits = 0;               ///< 1 to 30
+  int bits = 0;               ///< 1 to 23
 };
 
 /// What the shells were made from: enough to place them and to recognise the volume, nothing that
@@ -39,7 +40,7 @@ struct VolumeFacts {
   ScalarType type = ScalarType::U8;
   double slope = 1.0;
   double intercept = 0.0;
-  std::uint64_t checksum = 0;  ///< of the stored samples
+  std::uint64_t checksum = 0;  ///< of the stored samples, see docs/shell_file.md
 };
 
 /// A nest of emission shells of one volume, outermost (lowest level) first.

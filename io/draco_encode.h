@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/shell_set.h"
+#include "io/draco_guard.h"
+
+namespace nacre {
+
+/// One shell compressed.
+struct DracoData {
+  std::vector<std::byte> bytes;
+  DracoCounts counts;  ///< of what decodes from it
+};
+
+/// Compresses a mesh whose positions lie on an exact grid; they decode bit for bit.
+///
+/// @param compression  0 (fastest) to 10 (smallest)
+/// @throws Error  Unsupported if Draco refuses
+DracoData encode_draco(const TriangleMesh& mesh, const QuantizationGrid& grid, int compression);
+
+}  // namespace nacre

@@ -1,0 +1,163 @@
+#include "io/shell_file_json.h"
+
+#include <fmt/core.h>
+
+#include <nlohmann/json.hpp>
+
+#include "core/checksum.h"
+#include "core/error.h"
+#include "core/quantization_grid.h"
+#include "io/shell_file_format.h"
+
+namespace nacre {
+namespace {
+
+using Json = nlohmann::ordered_json;  // keys in the order written, for people who look
+
+// A shell alone is faint, many in a row add up.
+constexpr double kAlpha = 0.15;
+constexpr const char* kGenerator = "nacre " NACRE_VERSION;
+
+/// An array of one element. (Nested braces would take it for something else.)
+Json list_of(Json element) {
+  Json list = Json::array();
+  list.push_back(std::move(element));
+  return list;
+}
+
+template <class Vector>
+Json json_of(const Vector& v) {
+  return {v.x, v.y, v.z};
+}
+
+Json json_of(const glm::dmat4& matrix) {
+  Json rows = Json::array();
+  for (int row = 0; row < 4; ++row) {
+    for (int column = 0; column < 4; ++column) rows.push_back(matrix[column][row]);
+  }
+  return rows;
+}
+
+Json volume_json(const VolumeFacts& volume) {
+  return {{"dims", json_of(volume.dims)},  {"world_from_voxel", json_of(volume.world_from_voxel)},
+          {"type", name(volume.type)},     {"slope", volume.slope},
+          {"intercept", volume.intercept}, {"checksum", checksum_text(volume.checksum)}};
+}
+
+Json grid_json(const QuantizationGrid& grid) {
+  return {{"bits", grid.bits},
+          {"origin_mm", json_of(grid.origin_mm)},
+          {"range_mm", grid.range_mm},
+          {"step_mm", step_mm(grid)}};
+}
+
+Json level_json(const Shell& shell, const std::optional<StoredShell>& stored,
+                std::size_t mesh_index) {
+  Json level = {{"emission", shell.emission},
+                {"value", shell.value},
+                {"representative", shell.representative},
+                {"triangles", stored ? stored->counts.triangles : 0},
+                {"vertices", stored ? stored->counts.vertices : 0}};
+  level["mesh"] = stored ? Json(mesh_index) : Json(nullptr);
+  if (stored) level["checksum"] = checksum_text(stored->checksum);
+  return level;
+}
+
+Json parsed_certificate(const std::string& text) {
+  Json certificate = Json::parse(text, nullptr, false);
+  if (certificate.is_discarded()) {
+    throw Error(ErrorCode::BadArgument,
+                fmt::format("certificate: found '{:.60}', expected JSON", text));
+  }
+  return certificate;
+}
+
+Json extras_json(const ShellSet& set, std::span<const std::optional<StoredShell>> stored,
+                 const std::string& certificate_json) {
+  Json nacre = {{"format", shell_file::kFormatVersion},
+                {"volume", volume_json(set.volume)},
+                {"emission", Json::array()},
+                {"placement", set.placement},
+                {"tolerance", set.tolerance},
+                {"center_mm", json_of(set.center_mm)},
+                {"grid", grid_json(*set.grid)},
+                {"levels", Json::array()}};
+  for (const EmissionKnot& knot : set.emission) {
+    nacre["emission"].push_back({knot.value, knot.emission});
+  }
+  std::size_t mesh_index = 0;
+  for (std::size_t k = 0; k < set.shells.size(); ++k) {
+    nacre["levels"].push_back(level_json(set.shells[k], stored[k], mesh_index));
+    if (stored[k]) ++mesh_index;
+  }
+  if (!certificate_json.empty()) nacre["certificate"] = parsed_certificate(certificate_json);
+  return {{"nacre", nacre}};
+}
+
+/// Column-major, as glTF has it: metres from millimetres, (X, Y, Z) = (L, S, -P) / 1000.
+Json root_matrix() { return {0.001, 0, 0, 0, 0, 0, -0.001, 0, 0, 0.001, 0, 0, 0, 0, 0, 1}; }
+
+Json primitive_json(std::size_t mesh_index) {
+  return {{"attributes", {{"POSITION", 2 * mesh_index}}},
+          {"indices", 2 * mesh_index + 1},
+          {"material", mesh_index},
+          {"mode", shell_file::kModeTriangles},
+          {"extensions",
+           {{shell_file::kDracoExtension,
+             {{"bufferView", mesh_index}, {"attributes", {{"POSITION", 0}}}}}}}};
+}
+
+Json material_json(const std::string& name, double brightness) {
+  return {{"name", name},
+          {"pbrMetallicRoughness",
+           {{"baseColorFactor", {brightness, brightness, brightness, kAlpha}},
+            {"metallicFactor", 0},
+            {"roughnessFactor", 1}}},
+          {"alphaMode", "BLEND"},
+          {"extensions", {{shell_file::kUnlitExtension, Json::object()}}}};
+}
+
+void append_shell(Json& gltf, const std::string& name, const Shell& shell,
+                  const StoredShell& stored) {
+  const std::size_t mesh_index = gltf["meshes"].size();
+  gltf["nodes"].push_back({{"name", name}, {"mesh", mesh_index}});
+  gltf["meshes"].push_back({{"name", name}, {"primitives", list_of(primitive_json(mesh_index))}});
+  gltf["materials"].push_back(material_json(name, shell.representative));
+  gltf["accessors"].push_back({{"componentType", shell_file::kComponentFloat},
+                               {"count", stored.counts.vertices},
+                               {"type", "VEC3"},
+                               {"min", json_of(stored.lo)},
+                               {"max", json_of(stored.hi)}});
+  gltf["accessors"].push_back({{"componentType", shell_file::kComponentUint32},
+                               {"count", 3 * stored.counts.triangles},
+                               {"type", "SCALAR"}});
+  gltf["bufferViews"].push_back(
+      {{"buffer", 0}, {"byteOffset", stored.offset}, {"byteLength", stored.size}});
+}
+
+}  // namespace
+
+std::string shell_file_json(const ShellSet& set, std::span<const std::optional<StoredShell>> stored,
+                            std::size_t binary_size, const std::string& certificate_json) {
+  Json gltf = {{"asset", {{"version", "2.0"}, {"generator", kGenerator}}},
+               {"scene", 0},
+               {"scenes", list_of({{"nodes", list_of(0)}})}};
+  gltf["nodes"] = list_of({{"name", "shells"}, {"matrix", root_matrix()}});
+  for (std::size_t k = 0; k < set.shells.size(); ++k) {
+    if (stored[k]) append_shell(gltf, fmt::format("shell {}", k + 1), set.shells[k], *stored[k]);
+  }
+  // glTF has no empty arrays, and no extension that nothing uses.
+  const std::size_t node_count = gltf["nodes"].size();
+  if (node_count > 1) {
+    gltf["extensionsUsed"] = {shell_file::kDracoExtension, shell_file::kUnlitExtension};
+    gltf["extensionsRequired"] = list_of(shell_file::kDracoExtension);
+    gltf["buffers"] = list_of({{"byteLength", binary_size}});
+  }
+  // Only now: members of an ordered object move when others are added.
+  Json& root = gltf["nodes"][0];
+  for (std::size_t i = 1; i < node_count; ++i) root["children"].push_back(i);
+  root["extras"] = extras_json(set, stored, certificate_json);
+  return gltf.dump();
+}
+
+}  // namespace nacre

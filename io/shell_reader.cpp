@@ -1,0 +1,85 @@
+#include "io/shell_reader.h"
+
+#include <fmt/core.h>
+#include <tbb/parallel_for.h>
+
+#include "core/checksum.h"
+#include "core/error.h"
+#include "io/byte_source.h"
+#include "io/draco_decode.h"
+#include "io/glb_container.h"
+#include "io/shell_directory.h"
+
+namespace nacre {
+namespace {
+
+struct OpenedShellFile {
+  ShellDirectory directory;
+  std::uint64_t binary_offset = 0;
+};
+
+OpenedShellFile open(const ByteSource& source, std::string_view name) {
+  const GlbContainer container = read_glb_container(source, name);
+  OpenedShellFile file{parse_shell_directory(container.json, container.binary_size, name),
+                       container.binary_offset};
+  file.directory.info.file_bytes = source.size();
+  return file;
+}
+
+TriangleMesh decode(const ByteSource& source, std::uint64_t binary_offset,
+                    const ShellPayload& payload) {
+  const std::vector<std::byte> data = source.read(binary_offset + payload.offset, payload.size);
+  if (const std::uint64_t found = xxh64(data); found != payload.checksum) {
+    throw Error(ErrorCode::BadFile,
+                fmt::format("found checksum {}, expected {} (the file is damaged)",
+                            checksum_text(found), checksum_text(payload.checksum)));
+  }
+  return decode_draco(data, payload.counts);
+}
+
+std::vector<std::size_t> wanted_shells(const ShellDirectory& directory,
+                                       const ShellReadOptions& options) {
+  std::vector<std::size_t> wanted;
+  for (std::size_t k = 0; k < directory.payloads.size(); ++k) {
+    if (directory.payloads[k] && (!options.wanted || options.wanted(k))) wanted.push_back(k);
+  }
+  return wanted;
+}
+
+ShellSet read(const ByteSource& source, std::string_view name, const ShellReadOptions& options) {
+  OpenedShellFile file = open(source, name);
+  ShellSet set = std::move(file.directory.info.set);
+  const std::vector<std::size_t> wanted = wanted_shells(file.directory, options);
+  ProgressMeter progress(options.progress, "decode", wanted.size());
+  tbb::parallel_for(std::size_t{0}, wanted.size(), [&](std::size_t i) {
+    const std::size_t k = wanted[i];
+    try {
+      set.shells[k].surface = decode(source, file.binary_offset, *file.directory.payloads[k]);
+    } catch (const Error& error) {
+      throw Error(error.code(), fmt::format("{}: shell {}: {}", name, k + 1, error.what()));
+    }
+    progress.advance();
+  });
+  return set;
+}
+
+}  // namespace
+
+ShellFileInfo read_shell_file_info(const std::filesystem::path& path) {
+  return open(FileSource(path), path.string()).directory.info;
+}
+
+ShellSet read_shell_set(const std::filesystem::path& path, const ShellReadOptions& options) {
+  return read(FileSource(path), path.string(), options);
+}
+
+ShellFileInfo parse_shell_file_info(std::span<const std::byte> file, std::string_view name) {
+  return open(MemorySource(file), name).directory.info;
+}
+
+ShellSet decode_shell_set(std::span<const std::byte> file, std::string_view name,
+                          const ShellReadOptions& options) {
+  return read(MemorySource(file), name, options);
+}
+
+}  // namespace nacre

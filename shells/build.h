@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "core/emission.h"
+#include "core/progress.h"
+#include "core/shell_set.h"
+#include "core/volume.h"
+#include "shells/snap.h"
+
+namespace nacre {
+
+/// A level to contour, and the emission that stands for the layer above it.
+struct Level {
+  double emission = 0.0;        ///< t_k, in (0, 1]
+  double representative = 0.0;  ///< r_k, in [0, 1]
+};
+
+/// N levels by the midpoint rule: t_k = (k - 1/2) / N, shown as r_k = k / N.
+/// @throws Error  BadArgument for N = 0
+std::vector<Level> uniform_levels(std::size_t count);
+
+/// Given emissions: each shown as the middle of its layer, (t_k + t_(k+1)) / 2, the last as 1.
+/// @throws Error  BadArgument unless they ascend strictly within (0, 1]
+std::vector<Level> explicit_levels(const std::vector<double>& emissions);
+
+struct BuildOptions {
+  std::vector<Level> levels;          ///< strictly ascending
+  std::string placement = "uniform";  ///< of `ShellSet`
+  double emission_tolerance = 0.0;    ///< of the surfaces; 0: no simplification by it
+  double tolerance_mm = 0.0;          ///< likewise, of their distance
+  std::size_t target_triangles = 0;   ///< for the set, shared out evenly; 0: none
+  int quantization_bits = 0;          ///< 0 chooses, see `choose_grid`
+  ProgressCallback progress = {};     ///< stages "extract", "simplify", "snap"
+};
+
+/// What a build took, and what it left.
+struct BuildReport {
+  std::size_t extracted_triangles = 0;
+  std::size_t triangles = 0;
+  SnapReport snapped;
+  double step_spacings = 0.0;   ///< of the grid, as a part of the smallest spacing
+  bool is_grid_coarse = false;  ///< see `GridChoice`
+  double extract_seconds = 0.0;
+  double simplify_seconds = 0.0;
+  double snap_seconds = 0.0;
+};
+
+struct BuiltShells {
+  ShellSet set;
+  BuildReport report;
+};
+
+/// The shells of a volume: contoured, simplified, snapped to one grid and cleaned, ready to be
+/// written.
+///
+/// Every shell is closed, oriented, manifold and without degenerate triangles (`snap`), or empty
+/// where nothing reaches its level. The same for any number of threads.
+///
+/// @param emission  rising, see `extract/emission_volume.h` for maps that fall
+/// @throws Error    BadArgument if the levels do not ascend within (0, T(infinity)] or two have the
+///                  same value, or the grid is too coarse; as `extract_surfaces` and `choose_grid`
+BuiltShells build_shells(const Volume& volume, const EmissionMap& emission,
+                         const BuildOptions& options);
+
+}  // namespace nacre

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "core/shell_set.h"
+
+namespace nacre::testing {
+
+/// A mesh with its positions moved to the nearest points of a grid.
+TriangleMesh on_grid(const QuantizationGrid& grid, TriangleMesh mesh);
+
+/// Four levels: a sphere, two spheres, a torus, and one that nothing reaches, on an exact grid,
+/// with numbers in its description that decimal digits do not hold.
+ShellSet small_shell_set();
+
+}  // namespace nacre::testing
