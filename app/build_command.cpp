@@ -9,6 +9,7 @@
 #include "app/thread_limit.h"
 #include "core/error.h"
 #include "core/volume_geometry.h"
+#include "io/atomic_file.h"
 #include "io/shell_writer.h"
 
 namespace nacre {
@@ -60,7 +61,9 @@ void run_build(const BuildFlags& flags) {
   watch.lap();
   const std::vector<std::byte> bytes = encode_shell_set(set, {.progress = reporter.progress()});
   const double encoding = watch.lap();
-  write_shell_file(flags.output, bytes);
+  AtomicFile file(flags.output);
+  file.write(bytes);
+  file.commit();
   const double writing = watch.lap();
 
   const std::size_t triangles = triangle_count(set);

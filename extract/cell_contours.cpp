@@ -46,20 +46,12 @@ struct CellContours::Cell {
   std::uint32_t vertex(std::size_t edge) const { return row.edge_vertex(edge, x, k); }
 };
 
-<<<<<<< HEAD
 void CellContours::add_layer(CellRow row, SlabOutput& output) const {
   for (std::size_t y = 0; y + 1 < grid_.dims[1]; ++y) {
     add_row(row, output);
     add_caps(row, output);
     row.advance();
   }
-=======
-void CellContours::add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c,
-                                LevelOutput& output) const {
-  // In a left-handed lattice counter-clockwise turns into clockwise.
-  *output.triangles.room(1) = grid_.left_handed ? glm::uvec3(a, c, b) : glm::uvec3(a, b, c);
-  output.triangles.commit(1);
->>>>>>> shells
 }
 
 void CellContours::add_row(const CellRow& row, SlabOutput& output) const {
@@ -86,7 +78,6 @@ void CellContours::add_cell(const CellRow& row, std::size_t x, std::size_t lo, s
     const SimpleCase& simple = topology_.simple(mask);
     const Cell cell{row, x, k, mask};
     if (simple.triangle_count == SimpleCase::kNotSimple) {
-<<<<<<< HEAD
       add_ambiguous(cell, output);
       continue;
     }
@@ -97,15 +88,6 @@ void CellContours::add_cell(const CellRow& row, std::size_t x, std::size_t lo, s
                  cell.vertex(simple.edges[3 * t + 2])};
     }
     triangles.commit(simple.triangle_count);
-=======
-      add_ambiguous(cell, output[k]);
-      continue;
-    }
-    for (std::size_t t = 0; t < simple.triangle_count; ++t) {
-      add_triangle(cell.vertex(simple.edges[3 * t]), cell.vertex(simple.edges[3 * t + 1]),
-                   cell.vertex(simple.edges[3 * t + 2]), output[k]);
-    }
->>>>>>> shells
   }
 }
 
@@ -121,11 +103,7 @@ CornerField CellContours::field(const Cell& cell) const {
   return field;
 }
 
-<<<<<<< HEAD
 void CellContours::add_ambiguous(const Cell& cell, SlabOutput& output) const {
-=======
-void CellContours::add_ambiguous(const Cell& cell, LevelOutput& output) const {
->>>>>>> shells
   const CornerField values = field(cell);
   unsigned joined = 0;
   unsigned bit = 1;
@@ -146,7 +124,6 @@ void CellContours::add_ambiguous(const Cell& cell, LevelOutput& output) const {
 }
 
 std::uint32_t CellContours::add_inner_vertex(const Cell& cell, const glm::dvec3& p_cell,
-<<<<<<< HEAD
                                              SlabOutput& output) const {
   output.write_position(cell.k,
                         grid_.position_mm(glm::dvec3(cell.x, cell.row.y(), cell.row.z()) + p_cell));
@@ -158,18 +135,6 @@ void CellContours::add_disc(const Cell& cell, const CornerField& values, const C
   for (std::size_t t = 0; t < loop.triangle_count; ++t) {
     const auto& [a, b, c] = loop.triangles[t];
     output.write_triangle(cell.k, {cell.vertex(a), cell.vertex(b), cell.vertex(c)});
-=======
-                                             LevelOutput& output) const {
-  output.write_position(grid_.position_mm(glm::dvec3(cell.x, cell.row.y(), cell.row.z()) + p_cell));
-  return output.new_vertex();
-}
-
-void CellContours::add_disc(const Cell& cell, const CornerField& values, const CellLoop& loop,
-                            LevelOutput& output) const {
-  for (std::size_t t = 0; t < loop.triangle_count; ++t) {
-    const auto& [a, b, c] = loop.triangles[t];
-    add_triangle(cell.vertex(a), cell.vertex(b), cell.vertex(c), output);
->>>>>>> shells
   }
   if (!loop.needs_center) return;
   glm::dvec3 center(0.0);
@@ -182,20 +147,12 @@ void CellContours::add_disc(const Cell& cell, const CornerField& values, const C
   const std::uint32_t hub = add_inner_vertex(cell, center, output);
   for (std::size_t i = 0; i < loop.length; ++i) {
     const std::size_t next = (i + 1) % loop.length;
-<<<<<<< HEAD
     output.write_triangle(cell.k, {cell.vertex(loop.edges[i]), cell.vertex(loop.edges[next]), hub});
-=======
-    add_triangle(cell.vertex(loop.edges[i]), cell.vertex(loop.edges[next]), hub, output);
->>>>>>> shells
   }
 }
 
 void CellContours::add_tube(const Cell& cell, const CornerField& values, const CellCase& resolved,
-<<<<<<< HEAD
                             const Tunnel& tunnel, SlabOutput& output) const {
-=======
-                            const Tunnel& tunnel, LevelOutput& output) const {
->>>>>>> shells
   std::array<std::uint32_t, 6> inner{};
   for (std::size_t i = 0; i < 6; ++i) inner[i] = add_inner_vertex(cell, tunnel.waist[i], output);
   // The second loop sees the waist run backwards.
@@ -210,11 +167,7 @@ void CellContours::add_tube(const Cell& cell, const CornerField& values, const C
       return i < loop.length ? cell.vertex(loop.edges[i]) : inner[i - loop.length];
     };
     for (const auto& [a, b, c] : tube_band(std::span(points).first(loop.length), waist)) {
-<<<<<<< HEAD
       output.write_triangle(cell.k, {vertex(a), vertex(b), vertex(c)});
-=======
-      add_triangle(vertex(a), vertex(b), vertex(c), output);
->>>>>>> shells
     }
     std::ranges::reverse(waist);
     std::ranges::reverse(inner);
@@ -239,14 +192,9 @@ void CellContours::add_caps(const CellRow& row, SlabOutput& output) const {
 
 void CellContours::add_cap(const CellRow& row, std::size_t x, std::size_t face_index,
                            SlabOutput& output) const {
-<<<<<<< HEAD
   const std::uint64_t classes = row.corner_classes(x);
   if (classes == 0) return;
   const CellFace& face = kFacesOfCell[face_index];
-=======
-  const CellFace& face = kFacesOfCell[face_index];
-  const std::uint64_t classes = row.corner_classes(x);
->>>>>>> shells
   std::size_t levels = 0;
   for (const std::uint8_t corner : face.corners) {
     levels = std::max<std::size_t>(levels, byte(classes, corner));
@@ -268,11 +216,7 @@ void CellContours::add_cap(const CellRow& row, std::size_t x, std::size_t face_i
     };
     for (std::size_t t = 0; t < cap.triangle_count; ++t) {
       const auto& [a, b, c] = cap.triangles[t];
-<<<<<<< HEAD
       output.write_triangle(k, {vertex(a), vertex(b), vertex(c)});
-=======
-      add_triangle(vertex(a), vertex(b), vertex(c), output[k]);
->>>>>>> shells
     }
   }
 }

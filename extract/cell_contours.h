@@ -14,13 +14,8 @@
 
 namespace nacre {
 
-<<<<<<< HEAD
 /// Last passes of the sweep: the triangles of all levels in a layer of cells, and those of the caps
 /// where it lies at the volume's border. Counter-clockwise in a right-handed lattice.
-=======
-/// Last passes of the sweep: the triangles of all levels in a row of cells, and those of the caps
-/// where the row lies at the volume's border.
->>>>>>> shells
 class CellContours {
  public:
   /// @param crossings   stored value of each level, see `StoredLevels`
@@ -29,18 +24,12 @@ class CellContours {
                std::span<const double> crossings, bool descending)
       : grid_(grid), samples_(samples), crossings_(crossings), descending_(descending) {}
 
-<<<<<<< HEAD
   /// @param row  the layer's first row
   void add_layer(CellRow row, SlabOutput& output) const;
-=======
-  void add_row(const CellRow& row, SlabOutput& output) const;
-  void add_caps(const CellRow& row, SlabOutput& output) const;
->>>>>>> shells
 
  private:
   struct Cell;
 
-<<<<<<< HEAD
   void add_row(const CellRow& row, SlabOutput& output) const;
   void add_caps(const CellRow& row, SlabOutput& output) const;
 
@@ -51,25 +40,11 @@ class CellContours {
                 SlabOutput& output) const;
   void add_tube(const Cell& cell, const CornerField& field, const CellCase& resolved,
                 const Tunnel& tunnel, SlabOutput& output) const;
-=======
-  void add_cell(const CellRow& row, std::size_t x, std::size_t lo, std::size_t hi,
-                SlabOutput& output) const;
-  void add_ambiguous(const Cell& cell, LevelOutput& output) const;
-  void add_disc(const Cell& cell, const CornerField& field, const CellLoop& loop,
-                LevelOutput& output) const;
-  void add_tube(const Cell& cell, const CornerField& field, const CellCase& resolved,
-                const Tunnel& tunnel, LevelOutput& output) const;
->>>>>>> shells
   void add_cap(const CellRow& row, std::size_t x, std::size_t face, SlabOutput& output) const;
 
   CornerField field(const Cell& cell) const;
   std::uint32_t add_inner_vertex(const Cell& cell, const glm::dvec3& p_cell,
-<<<<<<< HEAD
                                  SlabOutput& output) const;
-=======
-                                 LevelOutput& output) const;
-  void add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, LevelOutput& output) const;
->>>>>>> shells
 
   const SweepGrid& grid_;
   const SampleReader& samples_;

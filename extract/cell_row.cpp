@@ -1,7 +1,6 @@
 #include "extract/cell_row.h"
 
 #include <algorithm>
-<<<<<<< HEAD
 
 namespace nacre {
 
@@ -12,30 +11,11 @@ CellRow::CellRow(const SweepGrid& grid, std::size_t z, const LatticeSlice& lower
   for (std::size_t row = 0; row < 4; ++row) {
     classes_[row] = slices[row >> 1]->classes.data() + nx_ * (row & 1);
     bricks_[row] = slices[row >> 1]->bricks.data() + brick_count(nx_) * (row & 1);
-=======
-#include <cstring>
-
-namespace nacre {
-
-CellRow::CellRow(const SweepGrid& grid, std::size_t y, std::size_t z, const LatticeSlice& lower,
-                 const LatticeSlice& upper, const LatticeGap& gap)
-    : y_(y), z_(z) {
-  const std::size_t nx = grid.dims[0];
-  const std::array<const LatticeSlice*, 2> slices{&lower, &upper};
-  for (std::size_t row = 0; row < 4; ++row) {
-    const std::size_t row_y = y + (row & 1);
-    classes_[row] = slices[row >> 1]->classes.data() + nx * row_y;
-    bricks_[row] = slices[row >> 1]->bricks.data() + brick_count(nx) * row_y;
->>>>>>> shells
   }
   for (std::size_t edge = 0; edge < kCellEdges; ++edge) {
     const std::size_t corner = kEdgesOfCell[edge][0];  // the end that names a lattice edge
     const LatticeSlice& slice = *slices[corner >> 2];
-<<<<<<< HEAD
     const std::size_t offset = (corner & 1) + nx_ * (corner >> 1 & 1);
-=======
-    const std::size_t offset = (corner & 1) + nx * (y + (corner >> 1 & 1));
->>>>>>> shells
     switch (edge / 4) {
       case 0: edges_[edge] = {slice.x_edges.get() + offset, slice.ids.data()}; break;
       case 1: edges_[edge] = {slice.y_edges.get() + offset, slice.ids.data()}; break;
@@ -44,32 +24,17 @@ CellRow::CellRow(const SweepGrid& grid, std::size_t y, std::size_t z, const Latt
   }
   for (std::size_t corner = 0; corner < kCellCorners; ++corner) {
     const LatticeSlice& slice = *slices[corner >> 2];
-<<<<<<< HEAD
     const std::size_t offset = (corner & 1) + nx_ * (corner >> 1 & 1);
-=======
-    const std::size_t offset = (corner & 1) + nx * (y + (corner >> 1 & 1));
->>>>>>> shells
     corners_[corner] = {slice.corners.get() + offset, slice.ids.data()};
   }
 }
 
-<<<<<<< HEAD
 void CellRow::advance() {
   ++y_;
   for (const std::uint8_t*& classes : classes_) classes += nx_;
   for (const ClassRange*& bricks : bricks_) bricks += brick_count(nx_);
   for (Vertices& vertices : edges_) vertices.handles += nx_;
   for (Vertices& vertices : corners_) vertices.handles += nx_;
-=======
-std::uint64_t CellRow::corner_classes(std::size_t x) const {
-  std::uint64_t packed = 0;
-  for (std::size_t row = 0; row < 4; ++row) {
-    std::uint16_t pair = 0;
-    std::memcpy(&pair, classes_[row] + x, 2);
-    packed |= std::uint64_t{pair} << (16 * row);
-  }
-  return packed;
->>>>>>> shells
 }
 
 ClassRange CellRow::brick_range(std::size_t brick) const {

@@ -3,10 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-<<<<<<< HEAD
 #include <cstring>
-=======
->>>>>>> shells
 
 #include "extract/cell_topology.h"
 #include "extract/lattice_slice.h"
@@ -14,7 +11,6 @@
 
 namespace nacre {
 
-<<<<<<< HEAD
 /// A row of cells (., y, z) between two classified slices: classes of its four rows of samples, and
 /// the vertices on its cells' edges and border corners. Starts at y = 0.
 class CellRow {
@@ -25,20 +21,10 @@ class CellRow {
   /// On to the next y.
   void advance();
 
-=======
-/// The row of cells (., y, z) between two classified slices: classes of its four rows of samples,
-/// and the vertices on its cells' edges and border corners.
-class CellRow {
- public:
-  CellRow(const SweepGrid& grid, std::size_t y, std::size_t z, const LatticeSlice& lower,
-          const LatticeSlice& upper, const LatticeGap& gap);
-
->>>>>>> shells
   std::size_t y() const { return y_; }
   std::size_t z() const { return z_; }
 
   /// The classes of cell x's corners, corner i in byte i.
-<<<<<<< HEAD
   std::uint64_t corner_classes(std::size_t x) const {
     std::uint64_t packed = 0;
     for (std::size_t row = 0; row < 4; ++row) {
@@ -48,9 +34,6 @@ class CellRow {
     }
     return packed;
   }
-=======
-  std::uint64_t corner_classes(std::size_t x) const;
->>>>>>> shells
 
   /// Vertex of level k on an edge of cell x.
   std::uint32_t edge_vertex(std::size_t edge, std::size_t x, std::size_t k) const {
@@ -76,12 +59,8 @@ class CellRow {
     const std::uint32_t* ids = nullptr;
   };
 
-<<<<<<< HEAD
   std::size_t nx_;
   std::size_t y_ = 0;
-=======
-  std::size_t y_;
->>>>>>> shells
   std::size_t z_;
   std::array<const std::uint8_t*, 4> classes_{};  ///< of the rows y z, y+1 z, y z+1, y+1 z+1
   std::array<const ClassRange*, 4> bricks_{};

@@ -53,11 +53,7 @@ void LatticeVertices<T>::add_edge(const Edge& edge, VertexIds& ids, std::uint32_
   const std::size_t hi = std::max(edge.class_a, edge.class_b);
   std::uint32_t* added = ids.add(lo, hi, handle);
   if (ownership == Ownership::Shared) {
-<<<<<<< HEAD
     for (std::size_t k = lo; k < hi; ++k) *added++ = output.levels[k].new_vertex();
-=======
-    for (std::size_t k = lo; k < hi; ++k) *added++ = output[k].new_vertex();
->>>>>>> shells
     return;
   }
   const double margin = grid_.margins[edge.axis];
@@ -65,13 +61,8 @@ void LatticeVertices<T>::add_edge(const Edge& edge, VertexIds& ids, std::uint32_
   const auto b = static_cast<double>(edge.b);
   for (std::size_t k = lo; k < hi; ++k) {
     const double t = std::clamp(crossing<T>(levels_.crossings[k], a, b), margin, 1.0 - margin);
-<<<<<<< HEAD
     *added++ = output.levels[k].new_vertex();
     output.write_position(k, edge.start_mm + grid_.steps_mm[edge.axis] * t);
-=======
-    *added++ = output[k].new_vertex();
-    output[k].write_position(edge.start_mm + grid_.steps_mm[edge.axis] * t);
->>>>>>> shells
   }
 }
 
@@ -81,10 +72,7 @@ void LatticeVertices<T>::add_row(std::size_t y, std::size_t z, LatticeSlice& sli
   const std::size_t nx = grid_.dims[0];
   const std::size_t row = nx * y;
   const std::uint8_t* classes = slice.classes.data() + row;
-<<<<<<< HEAD
   const glm::dvec3 row_start_mm = position(0, y, z);
-=======
->>>>>>> shells
   const auto add = [&](std::size_t x, std::size_t axis, std::size_t next, HandleMap& handles) {
     const std::size_t sample = grid_.sample_index(x, y, z);
     const Edge edge{.class_a = classes[x],
@@ -92,11 +80,7 @@ void LatticeVertices<T>::add_row(std::size_t y, std::size_t z, LatticeSlice& sli
                     .a = samples_[sample],
                     .b = samples_[sample + grid_.strides[axis]],
                     .axis = axis,
-<<<<<<< HEAD
                     .start_mm = row_start_mm + grid_.steps_mm[0] * static_cast<double>(x)};
-=======
-                    .start_mm = position(x, y, z)};
->>>>>>> shells
     add_edge(edge, slice.ids, handles[row + x], output, ownership);
   };
 
@@ -127,17 +111,10 @@ void LatticeVertices<T>::add_corner(std::size_t x, std::size_t y, std::size_t z,
   const std::size_t levels = slice.classes[in_slice];
   if (levels == 0) return;
   std::uint32_t* added = slice.ids.add(0, levels, slice.corners[in_slice]);
-<<<<<<< HEAD
   for (std::size_t k = 0; k < levels; ++k) *added++ = output.levels[k].new_vertex();
   if (ownership == Ownership::Shared) return;
   const glm::dvec3 position_mm = position(x, y, z);
   for (std::size_t k = 0; k < levels; ++k) output.write_position(k, position_mm);
-=======
-  for (std::size_t k = 0; k < levels; ++k) *added++ = output[k].new_vertex();
-  if (ownership == Ownership::Shared) return;
-  const glm::dvec3 position_mm = position(x, y, z);
-  for (std::size_t k = 0; k < levels; ++k) output[k].write_position(position_mm);
->>>>>>> shells
 }
 
 template <class T>
@@ -170,10 +147,7 @@ void LatticeVertices<T>::add_between(std::size_t z, const LatticeSlice& lower,
     const std::size_t row = nx * y;
     const std::uint8_t* below = lower.classes.data() + row;
     const std::uint8_t* above = upper.classes.data() + row;
-<<<<<<< HEAD
     const glm::dvec3 row_start_mm = position(0, y, z);
-=======
->>>>>>> shells
     const auto add = [&](std::size_t x) {
       const std::size_t sample = grid_.sample_index(x, y, z);
       const Edge edge{.class_a = below[x],
@@ -181,11 +155,7 @@ void LatticeVertices<T>::add_between(std::size_t z, const LatticeSlice& lower,
                       .a = samples_[sample],
                       .b = samples_[sample + grid_.strides[2]],
                       .axis = 2,
-<<<<<<< HEAD
                       .start_mm = row_start_mm + grid_.steps_mm[0] * static_cast<double>(x)};
-=======
-                      .start_mm = position(x, y, z)};
->>>>>>> shells
       add_edge(edge, gap.ids, gap.z_edges[row + x], output, Ownership::Own);
     };
     for (std::size_t b = 0; b < bricks; ++b) {

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
-<<<<<<< HEAD
 #include <span>
 #include <vector>
 
@@ -13,36 +12,18 @@
 namespace nacre {
 
 /// Elements appended one after the other, in chunks of an arena: nothing moves while it grows.
-=======
-#include <limits>
-#include <memory>
-#include <span>
-#include <utility>
-#include <vector>
-
-namespace nacre {
-
-/// Elements appended one after the other, in chunks: nothing moves while it grows, and a chunk is
-/// given back as soon as it has been copied out.
->>>>>>> shells
 template <class Element>
 class ChunkedStream {
  public:
   /// Room for `count` more elements, at most `kFirstChunk`; `commit` says how many were written.
-<<<<<<< HEAD
   Element* room(std::size_t count, ChunkArena& arena) {
     if (static_cast<std::size_t>(end_ - cursor_) < count) add_chunk(arena);
-=======
-  Element* room(std::size_t count) {
-    if (static_cast<std::size_t>(end_ - cursor_) < count) add_chunk();
->>>>>>> shells
     return cursor_;
   }
   void commit(std::size_t count) { cursor_ += count; }
 
   std::size_t size() const {
     std::size_t sum = static_cast<std::size_t>(cursor_ - begin_);
-<<<<<<< HEAD
     for (const std::span<Element> chunk : full_) sum += chunk.size();
     return sum;
   }
@@ -61,52 +42,11 @@ class ChunkedStream {
   void add_chunk(ChunkArena& arena) {
     if (begin_ != nullptr) full_.emplace_back(begin_, cursor_);
     begin_ = cursor_ = static_cast<Element*>(arena.allocate(next_chunk_ * sizeof(Element)));
-=======
-    for (const Chunk& chunk : full_) sum += chunk.size;
-    return sum;
-  }
-
-  /// Calls `function(std::span<Element>)` with each chunk in order, freeing it afterwards.
-  template <class Function>
-  void drain(Function&& function) {
-    close_chunk();
-    for (Chunk& chunk : full_) {
-      function(std::span<Element>(chunk.elements.get(), chunk.size));
-      chunk.elements.reset();
-    }
-    full_.clear();
-  }
-
- private:
-  static constexpr std::size_t kFirstChunk = 256;
-  static constexpr std::size_t kLargestChunk = std::size_t{1} << 14;
-
-  struct Chunk {
-    std::unique_ptr<Element[]> elements;
-    std::size_t size = 0;
-  };
-
-  void close_chunk() {
-    if (!current_) return;
-    full_.push_back({std::move(current_), static_cast<std::size_t>(cursor_ - begin_)});
-    begin_ = cursor_ = end_ = nullptr;
-  }
-
-  void add_chunk() {
-    close_chunk();
-    current_ = std::make_unique_for_overwrite<Element[]>(next_chunk_);
-    begin_ = cursor_ = current_.get();
->>>>>>> shells
     end_ = begin_ + next_chunk_;
     next_chunk_ = std::min(2 * next_chunk_, kLargestChunk);
   }
 
-<<<<<<< HEAD
   std::vector<std::span<Element>> full_;
-=======
-  std::vector<Chunk> full_;
-  std::unique_ptr<Element[]> current_;
->>>>>>> shells
   Element* begin_ = nullptr;
   Element* cursor_ = nullptr;
   Element* end_ = nullptr;
@@ -125,7 +65,6 @@ struct LevelOutput {
   std::uint64_t top_begin = 0;     ///< first vertex of the highest slice
 
   std::uint32_t new_vertex() { return static_cast<std::uint32_t>(next_vertex++); }
-<<<<<<< HEAD
 };
 
 /// All levels' surfaces of one slab, and the memory they lie in.
@@ -145,16 +84,5 @@ struct SlabOutput {
   std::vector<LevelOutput> levels;
   ChunkArena arena;
 };
-=======
-
-  void write_position(const glm::dvec3& position_mm) {
-    *positions.room(1) = glm::vec3(position_mm);
-    positions.commit(1);
-  }
-};
-
-/// All levels' surfaces of one slab.
-using SlabOutput = std::vector<LevelOutput>;
->>>>>>> shells
 
 }  // namespace nacre

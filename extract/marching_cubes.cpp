@@ -69,23 +69,6 @@ std::vector<SlabOutput> sweep(const Volume& volume, const SweepGrid& grid,
   return outputs;
 }
 
-<<<<<<< HEAD
-=======
-/// Joins the slabs, level by level; a level's vertices and triangles are two tasks.
-void merge(std::span<SlabOutput> slabs, std::span<TriangleMesh> meshes) {
-  std::vector<SurfaceMerge> merges;
-  for (std::size_t k = 0; k < meshes.size(); ++k) merges.emplace_back(slabs, k);
-  tbb::parallel_for(std::size_t{0}, 2 * meshes.size(), [&](std::size_t task) {
-    const std::size_t k = task / 2;
-    if (task % 2 == 0) {
-      merges[k].positions(meshes[k].positions);
-    } else {
-      merges[k].triangles(meshes[k].triangles);
-    }
-  });
-}
-
->>>>>>> shells
 }  // namespace
 
 std::vector<TriangleMesh> extract_surfaces(const Volume& volume, std::span<const double> values,
@@ -101,11 +84,7 @@ std::vector<TriangleMesh> extract_surfaces(const Volume& volume, std::span<const
       using T = decltype(zero);
       const auto levels = stored_levels<T>(batch, volume.slope, volume.intercept);
       std::vector<SlabOutput> slabs = sweep<T>(volume, grid, levels, meter);
-<<<<<<< HEAD
       merge_slabs(slabs, grid.left_handed, std::span(meshes).subspan(first, levels.count));
-=======
-      merge(slabs, std::span(meshes).subspan(first, levels.count));
->>>>>>> shells
     });
   }
   return meshes;

@@ -3,11 +3,8 @@
 #include <cstring>
 #include <limits>
 
-<<<<<<< HEAD
 #include "extract/sample_range.h"
 
-=======
->>>>>>> shells
 namespace nacre {
 namespace {
 
@@ -20,31 +17,6 @@ std::size_t table_index(T sample) {
                                   static_cast<std::int64_t>(std::numeric_limits<T>::min()));
 }
 
-<<<<<<< HEAD
-=======
-/// Smallest and largest sample. Sixteen lanes side by side: the compiler makes vectors of them.
-template <class T>
-std::pair<T, T> range_of(std::span<const T> samples) {
-  constexpr std::size_t kLanes = 16;
-  std::array<T, kLanes> lo;
-  lo.fill(samples[0]);
-  std::array<T, kLanes> hi = lo;
-  std::size_t i = 0;
-  for (; i + kLanes <= samples.size(); i += kLanes) {
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      const T sample = samples[i + lane];
-      lo[lane] = sample < lo[lane] ? sample : lo[lane];
-      hi[lane] = sample > hi[lane] ? sample : hi[lane];
-    }
-  }
-  for (; i < samples.size(); ++i) {
-    lo[0] = std::min(lo[0], samples[i]);
-    hi[0] = std::max(hi[0], samples[i]);
-  }
-  return {*std::ranges::min_element(lo), *std::ranges::max_element(hi)};
-}
-
->>>>>>> shells
 }  // namespace
 
 template <class T>
@@ -99,11 +71,7 @@ void SampleClasses<T>::of_row(std::span<const T> row, std::uint8_t* classes,
   for (std::size_t b = 0; b < count; ++b) {
     const std::size_t begin = b * kBrickCells;
     const auto samples = row.subspan(begin, std::min(kBrickCells + 1, row.size() - begin));
-<<<<<<< HEAD
     const auto [least, largest] = sample_range(samples);
-=======
-    const auto [least, largest] = range_of(samples);
->>>>>>> shells
     const std::uint8_t lo = rank(least);
     const std::uint8_t hi = rank(largest);
     if (lo == hi) {

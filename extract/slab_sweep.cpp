@@ -14,11 +14,7 @@ void check_numbers(const SlabOutput& output, const SweepWorkspace& workspace) {
   constexpr std::uint64_t kLargest = std::numeric_limits<std::uint32_t>::max();
   std::uint64_t largest =
       std::max<std::uint64_t>(workspace.upper.ids.size(), workspace.gap.ids.size());
-<<<<<<< HEAD
   for (const LevelOutput& level : output.levels) largest = std::max(largest, level.next_vertex);
-=======
-  for (const LevelOutput& level : output) largest = std::max(largest, level.next_vertex);
->>>>>>> shells
   if (largest > kLargest) {
     throw Error(ErrorCode::Unsupported,
                 "surfaces: found more than 2^32 - 1 vertices in one slab of the volume");
@@ -26,11 +22,7 @@ void check_numbers(const SlabOutput& output, const SweepWorkspace& workspace) {
 }
 
 void begin_slab(SlabOutput& output, Ownership ownership) {
-<<<<<<< HEAD
   for (LevelOutput& level : output.levels) {
-=======
-  for (LevelOutput& level : output) {
->>>>>>> shells
     level.shared_count = ownership == Ownership::Shared ? level.next_vertex : 0;
   }
 }
@@ -52,21 +44,10 @@ SlabOutput sweep_slab(const Slab& slab, const LatticeVertices<T>& vertices,
     std::swap(lower, upper);
     vertices.classify(z + 1, upper);
     vertices.add_between(z, lower, upper, gap, output);
-<<<<<<< HEAD
     for (LevelOutput& level : output.levels) level.top_begin = level.next_vertex;
     vertices.add_in_slice(z + 1, upper, output, Ownership::Own);
     check_numbers(output, workspace);
     contours.add_layer(CellRow(grid, z, lower, upper, gap), output);
-=======
-    for (LevelOutput& level : output) level.top_begin = level.next_vertex;
-    vertices.add_in_slice(z + 1, upper, output, Ownership::Own);
-    check_numbers(output, workspace);
-    for (std::size_t y = 0; y + 1 < grid.dims[1]; ++y) {
-      const CellRow row(grid, y, z, lower, upper, gap);
-      contours.add_row(row, output);
-      contours.add_caps(row, output);
-    }
->>>>>>> shells
   }
   return output;
 }

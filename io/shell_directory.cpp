@@ -200,7 +200,10 @@ ShellPayload payload_of(const Value& gltf, const Value& level, std::size_t binar
   const Value primitive =
       gltf["meshes"][level["mesh"].count()]["primitives"].sized(1)[std::size_t{0}];
   const Value accessors = gltf["accessors"];
-  const Value vertices = accessors[primitive["attributes"]["POSITION"].count()]["count"];
+  const Value positions = accessors[primitive["attributes"]["POSITION"].count()];
+  payload.lo = positions["min"].vector();
+  payload.hi = positions["max"].vector();
+  const Value vertices = positions["count"];
   if (vertices.count() != payload.counts.vertices) vertices.expect("the level's vertices");
   const Value indices = accessors[primitive["indices"].count()]["count"];
   if (indices.count() != 3 * payload.counts.triangles) indices.expect("three a triangle");
@@ -231,7 +234,7 @@ void add_level(ShellDirectory& directory, const Value& gltf, const Value& level,
   }
   const ShellPayload payload = payload_of(gltf, level, binary_size);
   directory.info.levels.push_back(
-      {payload.counts.triangles, payload.counts.vertices, payload.size});
+      {payload.counts.triangles, payload.counts.vertices, payload.size, payload.lo, payload.hi});
   directory.payloads.emplace_back(payload);
 }
 

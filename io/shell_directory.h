@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -17,6 +18,8 @@ struct ShellPayload {
   std::size_t size = 0;
   std::uint64_t checksum = 0;
   DracoCounts counts;
+  glm::dvec3 lo{0.0};  ///< bounds of the positions, as the file states them
+  glm::dvec3 hi{0.0};
 };
 
 /// A shell file's JSON, understood and checked.

@@ -26,6 +26,19 @@ OpenedShellFile open(const ByteSource& source, std::string_view name) {
   return file;
 }
 
+/// Renderers leave out what lies outside the view by these bounds, before anything is decoded.
+void check_bounds(const TriangleMesh& mesh, const ShellPayload& payload) {
+  for (const glm::vec3& position : mesh.positions) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const double p = position[axis];
+      if (p >= payload.lo[axis] && p <= payload.hi[axis]) continue;
+      throw Error(ErrorCode::BadFile, fmt::format("found a position at {} mm, expected it within "
+                                                  "the stated bounds {} to {}",
+                                                  p, payload.lo[axis], payload.hi[axis]));
+    }
+  }
+}
+
 TriangleMesh decode(const ByteSource& source, std::uint64_t binary_offset,
                     const ShellPayload& payload) {
   const std::vector<std::byte> data = source.read(binary_offset + payload.offset, payload.size);
@@ -34,7 +47,9 @@ TriangleMesh decode(const ByteSource& source, std::uint64_t binary_offset,
                 fmt::format("found checksum {}, expected {} (the file is damaged)",
                             checksum_text(found), checksum_text(payload.checksum)));
   }
-  return decode_draco(data, payload.counts);
+  TriangleMesh mesh = decode_draco(data, payload.counts);
+  check_bounds(mesh, payload);
+  return mesh;
 }
 
 std::vector<std::size_t> wanted_shells(const ShellDirectory& directory,

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <glm/vec3.hpp>
 #include <span>
 #include <string>
 #include <string_view>
@@ -18,6 +19,8 @@ struct ShellFileLevel {
   std::size_t triangles = 0;
   std::size_t vertices = 0;
   std::size_t bytes = 0;  ///< compressed; 0 for an empty level
+  glm::dvec3 lo_mm{0.0};  ///< bounds of the positions, relative to the set's centre
+  glm::dvec3 hi_mm{0.0};
 };
 
 /// What a shell file holds, without its surfaces.

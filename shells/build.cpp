@@ -140,28 +140,6 @@ std::size_t triangle_count(const ShellSet& set) {
 
 }  // namespace
 
-std::vector<Level> uniform_levels(std::size_t count) {
-  if (count == 0) {
-    throw Error(ErrorCode::BadArgument, "levels: found 0, expected at least 1");
-  }
-  const auto n = static_cast<double>(count);
-  std::vector<Level> levels(count);
-  for (std::size_t k = 0; k < count; ++k) {
-    levels[k] = {(static_cast<double>(k) + 0.5) / n, static_cast<double>(k + 1) / n};
-  }
-  return levels;
-}
-
-std::vector<Level> explicit_levels(const std::vector<double>& emissions) {
-  std::vector<Level> levels(emissions.size());
-  for (std::size_t k = 0; k < levels.size(); ++k) {
-    const bool is_last = k + 1 == levels.size();
-    levels[k] = {emissions[k], is_last ? 1.0 : 0.5 * (emissions[k] + emissions[k + 1])};
-  }
-  check_levels(levels);
-  return levels;
-}
-
 BuiltShells build_shells(const Volume& volume, const EmissionMap& emission,
                          const BuildOptions& options) {
   check_levels(options.levels);

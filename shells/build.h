@@ -8,23 +8,10 @@
 #include "core/progress.h"
 #include "core/shell_set.h"
 #include "core/volume.h"
+#include "extract/levels.h"
 #include "shells/snap.h"
 
 namespace nacre {
-
-/// A level to contour, and the emission that stands for the layer above it.
-struct Level {
-  double emission = 0.0;        ///< t_k, in (0, 1]
-  double representative = 0.0;  ///< r_k, in [0, 1]
-};
-
-/// N levels by the midpoint rule: t_k = (k - 1/2) / N, shown as r_k = k / N.
-/// @throws Error  BadArgument for N = 0
-std::vector<Level> uniform_levels(std::size_t count);
-
-/// Given emissions: each shown as the middle of its layer, (t_k + t_(k+1)) / 2, the last as 1.
-/// @throws Error  BadArgument unless they ascend strictly within (0, 1]
-std::vector<Level> explicit_levels(const std::vector<double>& emissions);
 
 struct BuildOptions {
   std::vector<Level> levels;          ///< strictly ascending
