@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <string>
 
@@ -12,6 +13,7 @@
 #include "app/volume_flags.h"
 #include "core/volume_geometry.h"
 #include "extract/default_window.h"
+#include "io/shell_reader.h"
 
 namespace nacre {
 namespace {
@@ -125,8 +127,73 @@ void say_volume(const VolumeFile& file, const ValueRange& range, const Window& w
   }
 }
 
+ordered_json to_json(const ShellFileInfo& info) {
+  const ShellSet& set = info.set;
+  ordered_json levels = ordered_json::array();
+  for (std::size_t i = 0; i < info.levels.size(); ++i) {
+    levels.push_back({{"emission", set.shells[i].emission},
+                      {"value", set.shells[i].value},
+                      {"representative", set.shells[i].representative},
+                      {"triangles", info.levels[i].triangles},
+                      {"vertices", info.levels[i].vertices},
+                      {"bytes", info.levels[i].bytes}});
+  }
+  ordered_json json;
+  json["kind"] = "shell set";
+  json["format"] = fmt::format("glTF 2.0 binary, nacre {}", info.format_version);
+  json["generator"] = info.generator;
+  json["bytes"] = info.file_bytes;
+  json["frame"] = "LPS, mm, relative to center_mm; the root node takes it to glTF metres, +Y up";
+  json["center_mm"] = {set.center_mm.x, set.center_mm.y, set.center_mm.z};
+  json["volume"] = {{"dims", {set.volume.dims.x, set.volume.dims.y, set.volume.dims.z}},
+                    {"type", name(set.volume.type)},
+                    {"world_from_voxel", matrix_rows(set.volume.world_from_voxel)}};
+  json["window"] = {set.emission.front().value, set.emission.back().value};
+  json["placement"] = set.placement;
+  json["tolerance"] = set.tolerance;
+  if (set.grid) json["quantization_bits"] = set.grid->bits;
+  json["levels"] = levels;
+  if (!info.certificate_json.empty()) {
+    json["certificate"] = ordered_json::parse(info.certificate_json);
+  }
+  return json;
+}
+
+void say_shells(const ShellFileInfo& info, Reporter& reporter) {
+  const ShellSet& set = info.set;
+  std::size_t triangles = 0;
+  for (const ShellFileLevel& level : info.levels) triangles += level.triangles;
+  reporter.say(fmt::format("shell set    {} levels ({}), {} triangles, {} bytes, {}",
+                           info.levels.size(), set.placement, triangles, info.file_bytes,
+                           info.generator));
+  reporter.say(fmt::format("volume       {} x {} x {} samples of {}", set.volume.dims.x,
+                           set.volume.dims.y, set.volume.dims.z, name(set.volume.type)));
+  reporter.say(fmt::format("window       {:.6g},{:.6g}", set.emission.front().value,
+                           set.emission.back().value));
+  reporter.say(fmt::format("centre       {:.6g}, {:.6g}, {:.6g} mm (LPS)", set.center_mm.x,
+                           set.center_mm.y, set.center_mm.z));
+  if (set.grid) {
+    reporter.say(fmt::format("grid         {} bits, {:.4g} mm a step", set.grid->bits,
+                             set.grid->range_mm / (std::exp2(set.grid->bits) - 1.0)));
+  }
+  reporter.say("shell   emission       value    shown as   triangles    vertices       bytes");
+  for (std::size_t i = 0; i < info.levels.size(); ++i) {
+    const Shell& shell = set.shells[i];
+    const ShellFileLevel& level = info.levels[i];
+    reporter.say(fmt::format("{:>5} {:>10.6f} {:>11.6g} {:>11.6f} {:>11} {:>11} {:>11}", i + 1,
+                             shell.emission, shell.value, shell.representative, level.triangles,
+                             level.vertices, level.bytes));
+  }
+}
+
 void run_info(const InfoFlags& flags) {
   Reporter reporter(flags.common);
+  if (std::filesystem::path(flags.volume.path).extension() == ".glb") {
+    const ShellFileInfo info = read_shell_file_info(flags.volume.path);
+    say_shells(info, reporter);
+    reporter.finish(to_json(info));
+    return;
+  }
   const VolumeFile file = read_volume_of(flags.volume, reporter);
   const ValueRange range = value_range(file.volume);
   const Window window = default_window(file.volume);
@@ -137,10 +204,11 @@ void run_info(const InfoFlags& flags) {
 }  // namespace
 
 void add_info_verb(CLI::App& app, int& /*status*/) {
-  CLI::App* verb = app.add_subcommand("info", "What a volume holds");
+  CLI::App* verb = app.add_subcommand("info", "What a volume or a shell set holds");
   verb->footer("Example: nacre info head.nii.gz --json -");
   auto flags = std::make_shared<InfoFlags>();
-  verb->add_option("FILE", flags->volume.path, "Volume file, or folder of a DICOM series")
+  verb->add_option("FILE", flags->volume.path,
+                   "Volume file, folder of a DICOM series, or shell set (.glb)")
       ->required();
   add_volume_reading_flags(*verb, flags->volume);
   add_common_flags(*verb, flags->common);

@@ -175,6 +175,118 @@ TEST_F(Command, QuietSaysNothingAndAPipeSeesNoProgress) {
   EXPECT_NE(shown.errors.find("rays"), std::string::npos);
 }
 
+/// For what needs the shell tools and a GL context.
+class ShellCommand : public Command {
+ protected:
+  void SetUp() override {
+    if (!NACRE_HAS_SHELLS) GTEST_SKIP() << "built without the shell tools";
+    Command::SetUp();
+    ASSERT_EQ(nacre("build ball.nii --window 0,28 --levels 7 -o ball.glb").status, 0);
+  }
+
+  void require_backend() const {
+    if (nacre("render --list-backends").output.find("software") == std::string::npos &&
+        nacre("render --list-backends").output.find("hardware") == std::string::npos) {
+      GTEST_SKIP() << "no OpenGL context opens on this machine";
+    }
+  }
+};
+
+TEST_F(ShellCommand, BuildTellsItsFigures) {
+  const CommandResult result =
+      nacre("build ball.nii --window 0,28 --levels 0.25,0.5,0.75 -o b.glb --json -");
+  ASSERT_EQ(result.status, 0) << result.errors;
+  const json figures = json::parse(result.output);
+  EXPECT_EQ(figures["volume"]["dims"], json({20, 18, 16}));
+  ASSERT_EQ(figures["levels"].size(), 3u);
+  EXPECT_DOUBLE_EQ(figures["levels"][1]["emission"].get<double>(), 0.5);
+  EXPECT_DOUBLE_EQ(figures["levels"][1]["value"].get<double>(), 14.0);
+  EXPECT_GT(figures["triangles"].get<int>(), 100);
+  EXPECT_GE(figures["extracted_triangles"].get<int>(), figures["triangles"].get<int>());
+  EXPECT_EQ(figures["bytes"].get<std::size_t>(),
+            std::filesystem::file_size(folder_.path() / "b.glb"));
+  for (const char* stage :
+       {"read", "emission", "extract", "simplify", "encode", "write", "total"}) {
+    EXPECT_GE(figures["seconds"][stage].get<double>(), 0.0) << stage;
+  }
+}
+
+TEST_F(ShellCommand, BuildGivesTheSameBytesForAnyNumberOfThreads) {
+  for (const char* extra : {"", " --tolerance 0.02"}) {
+    ASSERT_EQ(nacre(std::string("build ball.nii --levels 5 --threads 1 -o one.glb") + extra).status,
+              0);
+    ASSERT_EQ(
+        nacre(std::string("build ball.nii --levels 5 --threads 4 -o four.glb") + extra).status, 0);
+    EXPECT_EQ(testing::read_bytes(folder_.path() / "one.glb"),
+              testing::read_bytes(folder_.path() / "four.glb"));
+  }
+}
+
+TEST_F(ShellCommand, InfoListsTheShells) {
+  const CommandResult result = nacre("info ball.glb --json -");
+  ASSERT_EQ(result.status, 0) << result.errors;
+  const json figures = json::parse(result.output);
+  EXPECT_EQ(figures["kind"], "shell set");
+  EXPECT_EQ(figures["levels"].size(), 7u);
+  EXPECT_EQ(figures["window"], json({0.0, 28.0}));
+}
+
+// Seven levels: each pixel is within half a layer of the exact maximum, but at silhouettes.
+TEST_F(ShellCommand, RenderShowsTheExactPictureToHalfALayer) {
+  require_backend();
+  ASSERT_EQ(nacre("reference ball.nii --window 0,28 --size 64x64 --azimuth 30 -o exact.tif").status,
+            0);
+  ASSERT_EQ(nacre("render ball.glb --size 64x64 --azimuth 30 -o shells.tif").status, 0);
+  ASSERT_EQ(nacre("render ball.nii --window 0,28 --levels 7 --method shells --size 64x64 "
+                  "--azimuth 30 -o memory.tif")
+                .status,
+            0);
+  EXPECT_EQ(testing::read_bytes(folder_.path() / "shells.tif"),
+            testing::read_bytes(folder_.path() / "memory.tif"));
+  EXPECT_EQ(nacre("compare shells.tif exact.tif --max-rmse 0.06").status, 0);
+}
+
+TEST_F(ShellCommand, HiddenShellsAreLeftOutAndNotDrawn) {
+  require_backend();
+  const CommandResult all = nacre("render ball.glb --size 32x32 -o a.tif --json - --explain");
+  const CommandResult some = nacre("render ball.glb --size 32x32 --only 2,3 -o b.tif --json -");
+  ASSERT_EQ(some.status, 0) << some.errors;
+  const json figures = json::parse(some.output);
+  EXPECT_LT(figures["triangles_drawn"].get<int>(),
+            json::parse(all.output)["triangles_drawn"].get<int>());
+  EXPECT_NE(figures["left_out"].dump().find("hidden"), std::string::npos);
+  EXPECT_NE(all.errors.find("back faces"), std::string::npos);
+}
+
+TEST_F(ShellCommand, WrongUseIsStatusTwo) {
+  expect_refusal("build ball.nii -o a.stl", 2, ".glb");
+  expect_refusal("build ball.nii --levels 0 -o a.glb", 2, "--levels");
+  expect_refusal("build ball.nii --levels 0.5,0.2 -o a.glb", 2, "ascending");
+  expect_refusal("build ball.nii --levels 1.5,2 -o a.glb", 2, "level");
+  expect_refusal("build ball.nii --placement best -o a.glb", 2, "placement");
+  expect_refusal("render ball.glb --method exact -o a.png", 2, "volume");
+  expect_refusal("render ball.glb --backend metal -o a.png", 2, "metal");
+  expect_refusal("render ball.glb --depth-buffer 8 -o a.png", 2, "16, 24 or 32f");
+  expect_refusal("render ball.glb --hide 9 -o a.png", 2, "shell 9");
+  expect_refusal("render -o a.png", 2, "INPUT");
+}
+
+TEST_F(ShellCommand, DamagedSetsAreStatusThree) {
+  folder_.write("empty.glb", "");
+  folder_.write("text.glb", "glTF is what this is not");
+  std::string bytes = testing::read_bytes(folder_.path() / "ball.glb");
+  folder_.write("short.glb", bytes.substr(0, bytes.size() / 2));
+  bytes[bytes.size() - 20] ^= 1;
+  folder_.write("flipped.glb", bytes);
+  for (const char* verb : {"render", "info"}) {
+    const std::string output = std::string(verb) == "info" ? "" : " -o a.png";
+    for (const char* name : {"none.glb", "empty.glb", "text.glb", "short.glb"}) {
+      expect_refusal(std::string(verb) + " " + name + output, 3, name);
+    }
+  }
+  expect_refusal("render flipped.glb -o a.png", 3, "damaged");
+}
+
 TEST_F(Command, EveryFormatGivesTheSamePicture) {
   if (!NACRE_HAS_ITK) GTEST_SKIP() << "built without ITK: NIfTI is the only format";
   ASSERT_EQ(nacre("reference ball.nii --size 16x16 -o nii.tif").status, 0);
