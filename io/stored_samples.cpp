@@ -49,6 +49,9 @@ class PieceReader {
       : pieces_(stored.pieces), piece_size_(size / stored.pieces.size()) {
     for (Stretch& piece : pieces_) {
       if (stored.at_file_end) {
+        if (piece.packing != Packing::Raw) {
+          throw_bad_file(piece.path, "compressed samples to be counted from the end", "raw ones");
+        }
         const std::uint64_t file_size = file_size_of(piece.path);
         piece.offset = file_size - std::min(file_size, piece_size_);
       }

@@ -1,10 +1,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
+#include <glm/matrix.hpp>
+#include <glm/vector_relational.hpp>
+#include <string>
+#include <vector>
 
 #include "core/volume_geometry.h"
 #include "io/volume_reader.h"
+#include "tests/support/scratch_folder.h"
 #include "tests/support/test_data.h"
 
 namespace nacre {
@@ -171,6 +177,37 @@ TEST(RealVolumes, SpaceADicomSeriesByItsPositions) {
   EXPECT_GT(handedness(matrix), 0.0);
   EXPECT_EQ(stored_range(file.volume).highest, 1059);
   EXPECT_EQ(stored_range(file.volume).lowest, 0);
+}
+
+/// The corners of a binary STL's triangles.
+std::vector<glm::dvec3> stl_corners(const std::filesystem::path& path) {
+  constexpr std::size_t kHeader = 84;
+  constexpr std::size_t kTriangle = 50;
+  const std::string bytes = testing::read_bytes(path);
+  std::vector<glm::dvec3> corners;
+  for (std::size_t begin = kHeader; begin + kTriangle <= bytes.size(); begin += kTriangle) {
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      std::array<float, 3> p{};
+      std::memcpy(p.data(), bytes.data() + begin + 12 * (corner + 1), sizeof(p));
+      corners.emplace_back(p[0], p[1], p[2]);
+    }
+  }
+  return corners;
+}
+
+TEST(RealVolumes, HoldTheSurfaceThatWasSegmentedFromThem) {
+  NACRE_TEST_DATA_OR_SKIP(volume_path, "volumes/aorta.mha");
+  NACRE_TEST_DATA_OR_SKIP(surface_path, "volumes/aorta-surface.stl");
+  const Volume volume = read_volume(volume_path).volume;
+  const glm::dmat4 voxel_from_world = glm::inverse(volume.world_from_voxel);
+  const VoxelBox box = voxel_box(volume.dims);
+  const std::vector<glm::dvec3> corners = stl_corners(surface_path);
+  ASSERT_EQ(corners.size(), 3u * 12932);
+  for (const glm::dvec3& p_ras : corners) {
+    const glm::dvec3 p_voxel(voxel_from_world * glm::dvec4(-p_ras.x, -p_ras.y, p_ras.z, 1.0));
+    ASSERT_TRUE(glm::all(glm::greaterThanEqual(p_voxel, box.lo)) &&
+                glm::all(glm::lessThanEqual(p_voxel, box.hi)));
+  }
 }
 
 TEST(RealVolumes, KeepTheScaleOfAScaledNifti) {
