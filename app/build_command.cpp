@@ -24,6 +24,12 @@ struct BuildFlags {
   std::string output;
 };
 
+std::size_t triangle_count(const ShellSet& set) {
+  std::size_t triangles = 0;
+  for (const Shell& shell : set.shells) triangles += shell.surface.triangles.size();
+  return triangles;
+}
+
 ordered_json level_list(const ShellSet& set) {
   ordered_json levels = ordered_json::array();
   for (const Shell& shell : set.shells) {
@@ -34,12 +40,6 @@ ordered_json level_list(const ShellSet& set) {
                       {"vertices", shell.surface.positions.size()}});
   }
   return levels;
-}
-
-std::size_t triangle_count(const ShellSet& set) {
-  std::size_t triangles = 0;
-  for (const Shell& shell : set.shells) triangles += shell.surface.triangles.size();
-  return triangles;
 }
 
 void check_name(const std::string& output) {
@@ -54,35 +54,37 @@ void run_build(const BuildFlags& flags) {
   check_name(flags.output);
   Stopwatch total;
   Stopwatch watch;
-  const EmissionVolume input = read_emission_volume(flags.volume, reporter);
+  EmissionVolume input = read_emission_volume(flags.volume, reporter);
   const double reading = watch.lap();
   BuildFigures figures;
-  const ShellSet set = build_shell_set(flags.shells, input, reporter, figures);
+  ShellSet set = build_shell_set(flags.shells, std::move(input), reporter, figures);
   watch.lap();
-  const std::vector<std::byte> bytes = encode_shell_set(set, {.progress = reporter.progress()});
+  release_free_memory();
+  const std::size_t triangles = triangle_count(set);
+  const ordered_json levels = level_list(set);
+  for (const ordered_json& level : levels) reporter.detail("  " + level.dump());
+  const VolumeFacts volume = set.volume;
+  const std::vector<double> window{set.emission.front().value, set.emission.back().value};
+  const std::size_t shells = set.shells.size();
+  const std::string placement = set.placement;
+  const std::vector<std::byte> bytes =
+      encode_shell_set(std::move(set), {.progress = reporter.progress()});
   const double encoding = watch.lap();
   AtomicFile file(flags.output);
   file.write(bytes);
   file.commit();
   const double writing = watch.lap();
 
-  const std::size_t triangles = triangle_count(set);
-  reporter.say(fmt::format("{} shells, {} triangles, {} bytes -> {}", set.shells.size(), triangles,
+  reporter.say(fmt::format("{} shells, {} triangles, {} bytes -> {}", shells, triangles,
                            bytes.size(), flags.output));
-  for (const Shell& shell : set.shells) {
-    reporter.detail(fmt::format(
-        "  emission {:.4f}  value {:<10.6g} shown as {:.4f}  {:>9} triangles", shell.emission,
-        shell.value, shell.representative, shell.surface.triangles.size()));
-  }
-  const Volume& volume = input.volume;
   const glm::dvec3 spacing = spacing_mm(volume.world_from_voxel);
   ordered_json json;
   json["volume"] = {{"dims", {volume.dims.x, volume.dims.y, volume.dims.z}},
                     {"spacing_mm", {spacing.x, spacing.y, spacing.z}},
                     {"type", name(volume.type)}};
-  json["window"] = {input.emission.lo(), input.emission.hi()};
-  json["placement"] = set.placement;
-  json["levels"] = level_list(set);
+  json["window"] = window;
+  json["placement"] = placement;
+  json["levels"] = levels;
   json["extracted_triangles"] = figures.extracted_triangles;
   json["triangles"] = triangles;
   json["bytes"] = bytes.size();

@@ -1,6 +1,7 @@
 #include "app/command.h"
 
 #include <fmt/core.h>
+#include <malloc.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -89,6 +90,20 @@ double Stopwatch::lap() {
   const double seconds = std::chrono::duration<double>(now - since_).count();
   since_ = now;
   return seconds;
+}
+
+void return_large_blocks() {
+#ifdef __GLIBC__
+  // Otherwise the limit grows to the size of the largest block that was ever freed.
+  constexpr int kLargeBlock = 1 << 20;
+  mallopt(M_MMAP_THRESHOLD, kLargeBlock);
+#endif
+}
+
+void release_free_memory() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
 }
 
 std::size_t peak_rss_bytes() {

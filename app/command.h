@@ -68,6 +68,14 @@ class Stopwatch {
 /// Largest resident memory of this process so far, bytes.
 std::size_t peak_rss_bytes();
 
+/// Has the allocator give large blocks back to the system when they are freed, and not keep them for
+/// later ones: a build's peak is then what it holds, not the sum of what its stages held. To be
+/// called first of all.
+void return_large_blocks();
+
+/// Gives back what is free all the same.
+void release_free_memory();
+
 /// Runs `nacre` with these arguments; returns the exit status of cli.md: 0 done, 1 a check said no,
 /// 2 wrong use, 3 bad input, 4 cannot do it here.
 int run_nacre(int argc, char** argv);

@@ -57,6 +57,7 @@ int parse_and_run(CLI::App& app, int argc, char** argv, const int& status) {
 }  // namespace
 
 int run_nacre(int argc, char** argv) {
+  return_large_blocks();
   CLI::App app{
       "Nacre: seeing inside a scanned volume, fast, on any machine.\n"
       "Each verb explains itself: nacre VERB -h",

@@ -40,7 +40,7 @@ std::vector<Level> levels_of(const ShellFlags& flags, const EmissionMap& emissio
 
 }  // namespace
 
-ShellSet build_shell_set(const ShellFlags& flags, const EmissionVolume& input, Reporter& reporter,
+ShellSet build_shell_set(const ShellFlags& flags, EmissionVolume input, Reporter& reporter,
                          BuildFigures& figures) {
   BuildOptions options;
   options.levels = levels_of(flags, input.emission);
@@ -49,7 +49,7 @@ ShellSet build_shell_set(const ShellFlags& flags, const EmissionVolume& input, R
   options.tolerance_mm = flags.tolerance_mm;
   options.quantization_bits = flags.quantization;
   options.progress = reporter.progress();
-  BuiltShells built = build_shells(input.volume, input.emission, options);
+  BuiltShells built = build_shells(std::move(input.volume), input.emission, options);
   if (built.report.is_grid_coarse) {
     reporter.warn(
         fmt::format("the quantisation step is {:.3g} of the smallest spacing, more than "

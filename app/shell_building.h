@@ -29,10 +29,10 @@ struct BuildFigures {
   std::size_t extracted_triangles = 0;
 };
 
-/// Shells of a volume, in memory.
+/// Shells of a volume, in memory; the volume is gone afterwards.
 /// @throws Error  BadArgument for flags that name no levels; Unsupported in a build without the
 ///                shell tools
-ShellSet build_shell_set(const ShellFlags& flags, const EmissionVolume& input, Reporter& reporter,
+ShellSet build_shell_set(const ShellFlags& flags, EmissionVolume input, Reporter& reporter,
                          BuildFigures& figures);
 
 }  // namespace nacre

@@ -235,9 +235,9 @@ void run_shells_of_volume(const ExactFlags& flags, const DrawFlags& draw,
   const Backend wanted_backend = backend_of(draw);
   Timing timing;
   Stopwatch watch;
-  const EmissionVolume input = read_emission_volume(flags.volume, reporter);
+  EmissionVolume input = read_emission_volume(flags.volume, reporter);
   BuildFigures figures;
-  const ShellSet set = build_shell_set(shells, input, reporter, figures);
+  const ShellSet set = build_shell_set(shells, std::move(input), reporter, figures);
   const Views views = views_of(flags, draw, set.volume, set.shells.size());
   timing.load = watch.lap();
   GlRenderer renderer(wanted_backend);

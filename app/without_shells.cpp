@@ -4,7 +4,7 @@
 
 namespace nacre {
 
-ShellSet build_shell_set(const ShellFlags& /*flags*/, const EmissionVolume& /*input*/,
+ShellSet build_shell_set(const ShellFlags& /*flags*/, EmissionVolume /*input*/,
                          Reporter& /*reporter*/, BuildFigures& /*figures*/) {
   throw Error(ErrorCode::Unsupported,
               "found a build without the shell tools, expected one with CGAL and OpenMesh "

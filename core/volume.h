@@ -38,7 +38,7 @@ class SampleBuffer {
   struct Free {
     void operator()(std::byte* bytes) const noexcept { std::free(bytes); }
   };
-  std::unique_ptr<std::byte[], Free> bytes_;
+  std::unique_ptr<std::byte, Free> bytes_;
   std::size_t size_ = 0;
 };
 

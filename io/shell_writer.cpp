@@ -5,7 +5,9 @@
 
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <limits>
+#include <optional>
 
 #include "core/checksum.h"
 #include "core/error.h"
@@ -59,18 +61,28 @@ StoredShell describe(const TriangleMesh& surface, const DracoData& data) {
   return stored;
 }
 
-std::vector<DracoData> compress(const ShellSet& set, const ShellWriteOptions& options) {
-  std::vector<DracoData> data(set.shells.size());
+/// A shell's compressed bytes and its place in the file; no place where it is empty.
+struct CompressedShell {
+  DracoData data;
+  std::optional<StoredShell> stored;
+};
+
+/// @param done  called with each shell once its surface is not needed any more
+std::vector<CompressedShell> compress(const ShellSet& set, const ShellWriteOptions& options,
+                                      const std::function<void(std::size_t)>& done) {
+  std::vector<CompressedShell> shells(set.shells.size());
   ProgressMeter progress(options.progress, "encode", set.shells.size());
   tbb::parallel_for(std::size_t{0}, set.shells.size(), [&](std::size_t k) {
     const Shell& shell = set.shells[k];
     check_surface(shell, k, *set.grid);
     if (!shell.surface.triangles.empty()) {
-      data[k] = encode_draco(shell.surface, *set.grid, options.compression);
+      shells[k].data = encode_draco(shell.surface, *set.grid, options.compression);
+      shells[k].stored = describe(shell.surface, shells[k].data);
     }
+    done(k);
     progress.advance();
   });
-  return data;
+  return shells;
 }
 
 /// Grows a file by parts; binary glTF is little-endian, as the machines this runs on are.
@@ -93,7 +105,7 @@ class ByteWriter {
   std::vector<std::byte> bytes_;
 };
 
-std::vector<std::byte> glb(const std::string& json, const std::vector<DracoData>& data,
+std::vector<std::byte> glb(const std::string& json, const std::vector<CompressedShell>& shells,
                            std::size_t binary_size) {
   using namespace shell_file;
   const std::size_t json_size = aligned(json.size());
@@ -115,31 +127,40 @@ std::vector<std::byte> glb(const std::string& json, const std::vector<DracoData>
   if (binary_size > 0) {
     out.number(binary_size);
     out.number(kBinaryChunk);
-    for (const DracoData& shell : data) {
-      out.append(shell.bytes.data(), shell.bytes.size());
+    for (const CompressedShell& shell : shells) {
+      out.append(shell.data.bytes.data(), shell.data.bytes.size());
       out.pad('\0');
     }
   }
   return out.take();
 }
 
-}  // namespace
-
-std::vector<std::byte> encode_shell_set(const ShellSet& set, const ShellWriteOptions& options) {
+std::vector<std::byte> encode(const ShellSet& set, const ShellWriteOptions& options,
+                              const std::function<void(std::size_t)>& done) {
   if (const auto objection = shell_set_objection(set)) {
     throw Error(ErrorCode::BadArgument, "shell set: " + *objection);
   }
-  const std::vector<DracoData> data = compress(set, options);
-  std::vector<std::optional<StoredShell>> stored(set.shells.size());
+  const std::vector<CompressedShell> shells = compress(set, options, done);
+  std::vector<std::optional<StoredShell>> stored;
   std::size_t binary_size = 0;
-  for (std::size_t k = 0; k < set.shells.size(); ++k) {
-    if (data[k].bytes.empty()) continue;
-    stored[k] = describe(set.shells[k].surface, data[k]);
-    stored[k]->offset = binary_size;
-    binary_size += aligned(stored[k]->size);
+  for (const CompressedShell& shell : shells) {
+    stored.push_back(shell.stored);
+    if (!shell.stored) continue;
+    stored.back()->offset = binary_size;
+    binary_size += aligned(shell.stored->size);
   }
-  return glb(shell_file_json(set, stored, binary_size, options.certificate_json), data,
+  return glb(shell_file_json(set, stored, binary_size, options.certificate_json), shells,
              binary_size);
+}
+
+}  // namespace
+
+std::vector<std::byte> encode_shell_set(const ShellSet& set, const ShellWriteOptions& options) {
+  return encode(set, options, [](std::size_t) {});
+}
+
+std::vector<std::byte> encode_shell_set(ShellSet&& set, const ShellWriteOptions& options) {
+  return encode(set, options, [&](std::size_t k) { set.shells[k].surface = {}; });
 }
 
 void write_shell_set(const std::filesystem::path& path, const ShellSet& set,

@@ -31,6 +31,10 @@ struct ShellWriteOptions {
 ///                is not JSON; Unsupported if the file would exceed the 4 GiB of binary glTF
 std::vector<std::byte> encode_shell_set(const ShellSet& set, const ShellWriteOptions& options = {});
 
+/// The same, freeing each surface as soon as it is compressed: a large set need not stand in memory
+/// twice.
+std::vector<std::byte> encode_shell_set(ShellSet&& set, const ShellWriteOptions& options = {});
+
 /// Writes `encode_shell_set` to a file, which appears whole or not at all.
 /// @throws Error  as above, and as `AtomicFile` if it cannot be written
 void write_shell_set(const std::filesystem::path& path, const ShellSet& set,

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <functional>
+#include <optional>
 #include <span>
 
 #include "core/error.h"
@@ -138,10 +140,9 @@ std::size_t triangle_count(const ShellSet& set) {
   return count;
 }
 
-}  // namespace
-
-BuiltShells build_shells(const Volume& volume, const EmissionMap& emission,
-                         const BuildOptions& options) {
+/// @param volume_done  called when the volume is not needed any more
+BuiltShells build(const Volume& volume, const EmissionMap& emission, const BuildOptions& options,
+                  const std::function<void()>& volume_done) {
   check_levels(options.levels);
   BuiltShells built{describe(volume, emission, options), {}};
   const GridChoice grid =
@@ -161,11 +162,25 @@ BuiltShells build_shells(const Volume& volume, const EmissionMap& emission,
     simplify_shells(volume, emission, options, report.extracted_triangles, built.set);
     report.simplify_seconds = simplifying.seconds();
   }
+  volume_done();
   const Stopwatch snapping;
   snap_shells(options, built.set, report.snapped);
   report.snap_seconds = snapping.seconds();
   report.triangles = triangle_count(built.set);
   return built;
+}
+
+}  // namespace
+
+BuiltShells build_shells(const Volume& volume, const EmissionMap& emission,
+                         const BuildOptions& options) {
+  return build(volume, emission, options, [] {});
+}
+
+BuiltShells build_shells(Volume&& volume, const EmissionMap& emission,
+                         const BuildOptions& options) {
+  std::optional<Volume> kept(std::move(volume));
+  return build(*kept, emission, options, [&] { kept.reset(); });
 }
 
 }  // namespace nacre

@@ -52,4 +52,8 @@ struct BuiltShells {
 BuiltShells build_shells(const Volume& volume, const EmissionMap& emission,
                          const BuildOptions& options);
 
+/// The same, freeing the volume as soon as no later step looks at it: the surfaces are snapped and
+/// compressed without it beside them in memory.
+BuiltShells build_shells(Volume&& volume, const EmissionMap& emission, const BuildOptions& options);
+
 }  // namespace nacre
