@@ -58,14 +58,22 @@ std::string to_line(std::string_view name, const PictureError& error) {
       error.pixels, error.rmse, error.psnr_db, error.max_error, error.bias);
 }
 
-void write_difference(const CompareFlags& flags, const Image& error, double max_error,
-                      Reporter& reporter) {
+/// Three times the lit pixels' RMSE in full colour: the usual error is seen, the rare one
+/// saturates.
+double default_gain(const PictureComparison& comparison) {
+  const double usual = 3.0 * comparison.lit.rmse;
+  if (usual > 0.0) return 1.0 / usual;
+  return comparison.all.max_error > 0.0 ? 1.0 / comparison.all.max_error : 1.0;
+}
+
+void write_difference(const CompareFlags& flags, const Image& error,
+                      const PictureComparison& comparison, Reporter& reporter) {
   if (picture_format(flags.output) == PictureFormat::Tiff) {
     write_measured_picture(error, PictureMode::Max, flags.output);
     reporter.say(fmt::format("difference (signed, as measured) -> {}", flags.output));
     return;
   }
-  const double gain = flags.gain.value_or(max_error > 0.0 ? 1.0 / max_error : 1.0);
+  const double gain = flags.gain.value_or(default_gain(comparison));
   write_png(difference_picture(error, gain), flags.output);
   reporter.say(
       fmt::format("difference, {:.4g} times amplified (red: too bright, blue: too dark) -> {}",
@@ -103,8 +111,7 @@ int run_compare(const CompareFlags& flags) {
   reporter.say(fmt::format("peak {:.6g}; largest error at pixel ({}, {}); lit: where {} is above 0",
                            comparison.peak, comparison.worst_x, comparison.worst_y, flags.truth));
   if (!flags.output.empty()) {
-    write_difference(flags, difference(picture.image, truth.image), comparison.all.max_error,
-                     reporter);
+    write_difference(flags, difference(picture.image, truth.image), comparison, reporter);
   }
   const bool good =
       within_limits(flags, flags.over == "lit" ? comparison.lit : comparison.all, reporter);
@@ -128,7 +135,8 @@ void add_compare_verb(CLI::App& app, int& status) {
   verb->add_option("-o,--output", flags->output,
                    "Difference, signed: .png amplified in red and blue, .tif as measured");
   verb->add_option("--gain", flags->gain,
-                   "Amplification of the difference in the PNG (default: its largest is full)")
+                   "Amplification of the difference in the PNG (default: three times the lit RMSE "
+                   "is full colour)")
       ->check(CLI::PositiveNumber);
   verb->add_option("--peak", flags->peak,
                    "Brightness that PSNR is taken against (default: 1 for max, the truth's largest "

@@ -53,10 +53,12 @@ ordered_json json_of(const Bytes& file) {
 /// The file with another JSON text, all lengths right.
 Bytes with_json_text(const Bytes& file, std::string text) {
   while (text.size() % 4 != 0) text += ' ';
-  Bytes result(file.begin(), file.begin() + kJsonStart);
-  const auto* begin = reinterpret_cast<const std::byte*>(text.data());
-  result.insert(result.end(), begin, begin + text.size());
-  result.insert(result.end(), file.begin() + kJsonStart + word(file, 12), file.end());
+  const std::size_t rest = kJsonStart + word(file, 12);
+  Bytes result(kJsonStart + text.size() + file.size() - rest);
+  std::copy_n(file.begin(), kJsonStart, result.begin());
+  std::memcpy(result.data() + kJsonStart, text.data(), text.size());
+  std::copy(file.begin() + static_cast<std::ptrdiff_t>(rest), file.end(),
+            result.begin() + static_cast<std::ptrdiff_t>(kJsonStart + text.size()));
   set_word(result, 8, result.size());
   set_word(result, 12, text.size());
   return result;
