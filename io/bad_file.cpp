@@ -13,12 +13,12 @@ void throw_bad_file(const std::filesystem::path& path, const std::string& found,
 }
 
 std::string printable(std::string_view text) {
-  constexpr std::size_t kMaxLength = 60;
-  std::string shown(text.substr(0, kMaxLength));
+  constexpr std::size_t max_length = 60;
+  std::string shown(text.substr(0, max_length));
   for (char& c : shown) {
     if (c < ' ' || c > '~') c = '?';
   }
-  if (text.size() > kMaxLength) shown += "...";
+  if (text.size() > max_length) shown += "...";
   return shown;
 }
 

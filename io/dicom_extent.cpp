@@ -15,8 +15,8 @@ std::uint32_t little_endian(const unsigned char* bytes) {
 
 /// Follows items, each with its length, to the sequence's delimiter.
 bool ends_with_delimiter(const std::filesystem::path& path, std::uint64_t offset) {
-  constexpr std::uint32_t kItem = 0xe000fffe;
-  constexpr std::uint32_t kDelimiter = 0xe0ddfffe;
+  constexpr std::uint32_t item = 0xe000fffe;
+  constexpr std::uint32_t delimiter = 0xe0ddfffe;
   const std::uint64_t size = file_size_of(path);
   std::ifstream file(path, std::ios::binary);
   std::array<char, 8> bytes{};
@@ -26,8 +26,8 @@ bool ends_with_delimiter(const std::filesystem::path& path, std::uint64_t offset
     std::array<unsigned char, 8> head{};
     for (std::size_t i = 0; i < head.size(); ++i) head[i] = static_cast<unsigned char>(bytes[i]);
     const std::uint32_t tag = little_endian(head.data());
-    if (tag == kDelimiter) return true;
-    if (tag != kItem) return false;
+    if (tag == delimiter) return true;
+    if (tag != item) return false;
     offset += head.size() + little_endian(head.data() + 4);
   }
   return false;

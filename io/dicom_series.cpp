@@ -98,9 +98,9 @@ void check_kind(const fs::path& path, const DicomSlice& slice) {
                    "ImagePositionPatient, ImageOrientationPatient and PixelSpacing");
   }
   // Nothing that GDCM decodes packs an image tighter than this; a damaged size does.
-  constexpr std::uint64_t kMaxGrowth = 16384;
+  constexpr std::uint64_t max_growth = 16384;
   const std::int64_t size = slice.columns * slice.rows * slice.bits_allocated / 8;
-  if (size < 1 || static_cast<std::uint64_t>(size) / kMaxGrowth > file_size_of(path)) {
+  if (size < 1 || static_cast<std::uint64_t>(size) / max_growth > file_size_of(path)) {
     throw_bad_file(path, fmt::format("{} x {} samples", slice.columns, slice.rows),
                    "as many as the file can hold");
   }

@@ -179,11 +179,11 @@ void decode(const fs::path& path, std::span<std::byte> samples) {
 
 /// What GDCM may allocate: room for a whole file and for itself.
 std::size_t memory_for(const std::vector<fs::path>& files) {
-  constexpr std::size_t kOwn = std::size_t{128} << 20;
+  constexpr std::size_t own = std::size_t{128} << 20;
   std::uintmax_t largest = 0;
   std::error_code ignored;
   for (const fs::path& file : files) largest = std::max(largest, fs::file_size(file, ignored));
-  return kOwn + 2 * static_cast<std::size_t>(largest);
+  return own + 2 * static_cast<std::size_t>(largest);
 }
 
 /// What a child says about each file, as bytes. Trivially copyable: the child is a copy of us.

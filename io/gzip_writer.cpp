@@ -16,9 +16,9 @@ constexpr std::size_t kChunkSize = std::size_t{256} << 10;
 class GzipWriter::Stream {
  public:
   explicit Stream(AtomicFile& file) : file_(file), packed_(kChunkSize) {
-    constexpr int kWindowBits = 15 + 16;  // + 16: with gzip's header and checksum
-    constexpr int kMemoryLevel = 8;
-    if (deflateInit2(&zlib_, Z_DEFAULT_COMPRESSION, Z_DEFLATED, kWindowBits, kMemoryLevel,
+    constexpr int window_bits = 15 + 16;  // + 16: with gzip's header and checksum
+    constexpr int memory_level = 8;
+    if (deflateInit2(&zlib_, Z_DEFAULT_COMPRESSION, Z_DEFLATED, window_bits, memory_level,
                      Z_DEFAULT_STRATEGY) != Z_OK) {
       throw std::bad_alloc();
     }
@@ -53,9 +53,9 @@ GzipWriter::GzipWriter(AtomicFile& file) : stream_(std::make_unique<Stream>(file
 GzipWriter::~GzipWriter() = default;
 
 void GzipWriter::write(std::span<const std::byte> bytes) {
-  constexpr std::size_t kMaxInput = std::size_t{1} << 30;  // zlib counts in 32 bits
+  constexpr std::size_t max_input = std::size_t{1} << 30;  // zlib counts in 32 bits
   while (!bytes.empty()) {
-    const auto part = bytes.first(std::min(bytes.size(), kMaxInput));
+    const auto part = bytes.first(std::min(bytes.size(), max_input));
     stream_->pack(part, Z_NO_FLUSH);
     bytes = bytes.subspan(part.size());
   }

@@ -48,21 +48,21 @@ bool all_are_numbers(std::string_view value) {
 }
 
 void check_numbers(const fs::path& path, std::string_view key, std::string_view value) {
-  constexpr std::array<std::string_view, 14> kNumeric{"DimSize",
-                                                      "ElementSpacing",
-                                                      "ElementSize",
-                                                      "TransformMatrix",
-                                                      "Rotation",
-                                                      "Orientation",
-                                                      "Offset",
-                                                      "Position",
-                                                      "Origin",
-                                                      "HeaderSize",
-                                                      "CenterOfRotation",
-                                                      "ElementNumberOfChannels",
-                                                      "ElementToIntensityFunctionSlope",
-                                                      "ElementToIntensityFunctionOffset"};
-  for (const std::string_view name : kNumeric) {
+  constexpr std::array<std::string_view, 14> numeric{"DimSize",
+                                                     "ElementSpacing",
+                                                     "ElementSize",
+                                                     "TransformMatrix",
+                                                     "Rotation",
+                                                     "Orientation",
+                                                     "Offset",
+                                                     "Position",
+                                                     "Origin",
+                                                     "HeaderSize",
+                                                     "CenterOfRotation",
+                                                     "ElementNumberOfChannels",
+                                                     "ElementToIntensityFunctionSlope",
+                                                     "ElementToIntensityFunctionOffset"};
+  for (const std::string_view name : numeric) {
     if (key == name && !all_are_numbers(value)) {
       throw_bad_file(path, fmt::format("{} \"{}\"", key, printable(value)), "finite numbers");
     }

@@ -102,11 +102,11 @@ std::vector<std::byte> header_bytes(Header header, std::span<const char> magic) 
 std::vector<std::byte> nifti_header(const Volume& volume) {
   const Rows rows = ras_rows(volume.world_from_voxel);
   if (fits_version_1(volume, rows)) {
-    constexpr std::array<char, 4> kMagic{'n', '+', '1', '\0'};
-    return header_bytes(make_header<nifti_1_header>(volume, rows), kMagic);
+    constexpr std::array<char, 4> magic{'n', '+', '1', '\0'};
+    return header_bytes(make_header<nifti_1_header>(volume, rows), magic);
   }
-  constexpr std::array<char, 8> kMagic{'n', '+', '2', '\0', '\r', '\n', '\032', '\n'};
-  return header_bytes(make_header<nifti_2_header>(volume, rows), kMagic);
+  constexpr std::array<char, 8> magic{'n', '+', '2', '\0', '\r', '\n', '\032', '\n'};
+  return header_bytes(make_header<nifti_2_header>(volume, rows), magic);
 }
 
 }  // namespace

@@ -20,12 +20,12 @@ struct Range {
 /// Smallest and largest finite stored number; counts the rest.
 template <class T>
 Range finite_range(std::span<const T> samples, VolumeReadReport& report) {
-  constexpr T kMax = std::numeric_limits<T>::max();
-  T lowest = kMax;
-  T highest = -kMax;
+  constexpr T max = std::numeric_limits<T>::max();
+  T lowest = max;
+  T highest = -max;
   bool any = false;
   for (const T sample : samples) {
-    if (std::abs(sample) <= kMax) {
+    if (std::abs(sample) <= max) {
       lowest = std::min(lowest, sample);
       highest = std::max(highest, sample);
       any = true;

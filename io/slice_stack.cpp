@@ -27,9 +27,9 @@ void check_frame(const std::filesystem::path& path, const SliceFrame& slice) {
         path, fmt::format("a pixel spacing of {} x {} mm", slice.spacing_mm.x, slice.spacing_mm.y),
         "positive ones");
   }
-  constexpr double kUnitTolerance = 0.01;
+  constexpr double unit_tolerance = 0.01;
   for (const glm::dvec3& direction : {slice.x_direction, slice.y_direction}) {
-    if (!(std::abs(glm::length(direction) - 1.0) < kUnitTolerance)) {
+    if (!(std::abs(glm::length(direction) - 1.0) < unit_tolerance)) {
       throw_bad_file(path, fmt::format("a direction of length {:.3g}", glm::length(direction)),
                      "1");
     }

@@ -25,10 +25,10 @@ std::optional<ScalarType> scalar_type(StoredType type) {
 std::uint64_t checked_size(const fs::path& path, const StoredSamples& stored) {
   std::uint64_t size = size_of(stored.type);
   // Room for offsets and for the sums that callers make.
-  constexpr std::uint64_t kLimit = std::uint64_t{1} << 60;
+  constexpr std::uint64_t limit = std::uint64_t{1} << 60;
   for (int axis = 0; axis < 3; ++axis) {
     const std::int64_t count = stored.dims[axis];
-    if (count < 1 || static_cast<std::uint64_t>(count) > kLimit / size) {
+    if (count < 1 || static_cast<std::uint64_t>(count) > limit / size) {
       throw_bad_file(
           path, fmt::format("{} x {} x {} samples", stored.dims.x, stored.dims.y, stored.dims.z),
           "at least one along each axis, and less than 2^60 bytes");

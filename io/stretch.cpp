@@ -58,8 +58,8 @@ void check_stretch_holds(const Stretch& stretch, std::uint64_t size) {
   const std::uint64_t packed = file_size - std::min(stretch.offset, file_size);
   std::uint64_t held = packed;
   if (stretch.packing == Packing::Deflated) {
-    constexpr std::uint64_t kLimit = std::numeric_limits<std::uint64_t>::max();
-    held = packed > (kLimit - kSlack) / kMaxGrowth ? kLimit : packed * kMaxGrowth + kSlack;
+    constexpr std::uint64_t limit = std::numeric_limits<std::uint64_t>::max();
+    held = packed > (limit - kSlack) / kMaxGrowth ? limit : packed * kMaxGrowth + kSlack;
   }
   if (stretch.skip <= held && size <= held - stretch.skip) return;
   const char* kind = stretch.packing == Packing::Raw ? "bytes" : "compressed bytes";

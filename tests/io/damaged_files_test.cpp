@@ -42,12 +42,12 @@ class Damage {
   std::size_t below(std::size_t limit) { return random_() % std::max<std::size_t>(limit, 1); }
 
   void change(std::string& bytes, std::size_t at) {
-    constexpr std::string_view kText = "0123456789 \n=:.-xe%(),";
+    constexpr std::string_view text = "0123456789 \n=:.-xe%(),";
     switch (below(5)) {
       case 0: bytes[at] = static_cast<char>(bytes[at] ^ (1 << below(8))); break;
-      case 1: bytes[at] = kText[below(kText.size())]; break;
+      case 1: bytes[at] = text[below(text.size())]; break;
       case 2: bytes.erase(at, 1 + below(20)); break;
-      case 3: bytes.insert(at, std::string(1 + below(12), kText[below(10)])); break;
+      case 3: bytes.insert(at, std::string(1 + below(12), text[below(10)])); break;
       default: bytes[at] = static_cast<char>(random_()); break;
     }
   }

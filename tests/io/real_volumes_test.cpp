@@ -181,11 +181,11 @@ TEST(RealVolumes, SpaceADicomSeriesByItsPositions) {
 
 /// The corners of a binary STL's triangles.
 std::vector<glm::dvec3> stl_corners(const std::filesystem::path& path) {
-  constexpr std::size_t kHeader = 84;
-  constexpr std::size_t kTriangle = 50;
+  constexpr std::size_t header = 84;
+  constexpr std::size_t triangle = 50;
   const std::string bytes = testing::read_bytes(path);
   std::vector<glm::dvec3> corners;
-  for (std::size_t begin = kHeader; begin + kTriangle <= bytes.size(); begin += kTriangle) {
+  for (std::size_t begin = header; begin + triangle <= bytes.size(); begin += triangle) {
     for (std::size_t corner = 0; corner < 3; ++corner) {
       std::array<float, 3> p{};
       std::memcpy(p.data(), bytes.data() + begin + 12 * (corner + 1), sizeof(p));
