@@ -11,31 +11,40 @@
 namespace nacre {
 namespace {
 
-constexpr std::size_t kLargestBlock = std::size_t{1} << 21;
+constexpr std::size_t kLargestBlock = std::size_t{1} << 20;
 constexpr std::size_t kAlignment = 16;
-
-std::byte* allocate_block(std::size_t size) {
-  const bool huge = size == kLargestBlock;
-  void* block = huge ? std::aligned_alloc(kLargestBlock, size) : std::malloc(size);
-  if (block == nullptr) throw std::bad_alloc();
-#ifdef __linux__
-  // Advice only: without it everything works, with more page faults.
-  if (huge) static_cast<void>(madvise(block, size, MADV_HUGEPAGE));
-#endif
-  return static_cast<std::byte*>(block);
-}
 
 }  // namespace
 
+#ifdef __linux__
+
+// Not malloc: it would keep blocks for later, and they are a good part of a surface's size.
+ChunkArena::Block ChunkArena::allocate_block(std::size_t size) {
+  void* block = mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (block == MAP_FAILED) throw std::bad_alloc();
+  return Block(static_cast<std::byte*>(block), Free{size});
+}
+
+void ChunkArena::Free::operator()(std::byte* block) const noexcept { munmap(block, size); }
+
+#else
+
+ChunkArena::Block ChunkArena::allocate_block(std::size_t size) {
+  void* block = std::malloc(size);
+  if (block == nullptr) throw std::bad_alloc();
+  return Block(static_cast<std::byte*>(block), Free{size});
+}
+
 void ChunkArena::Free::operator()(std::byte* block) const noexcept { std::free(block); }
+
+#endif
 
 void* ChunkArena::allocate(std::size_t size) {
   const std::size_t padded = (size + kAlignment - 1) / kAlignment * kAlignment;
   if (static_cast<std::size_t>(end_ - cursor_) < padded) {
-    blocks_.emplace_back(allocate_block(next_block_));
+    blocks_.push_back(allocate_block(next_block_));
     cursor_ = blocks_.back().get();
     end_ = cursor_ + next_block_;
-    size_ += next_block_;
     next_block_ = std::min(2 * next_block_, kLargestBlock);
   }
   std::byte* allocated = cursor_;

@@ -6,29 +6,27 @@
 
 namespace nacre {
 
-/// Memory that is taken in pieces and given back all at once.
-///
-/// Blocks grow from 64 kB to 2 MB; those of 2 MB are asked for as huge pages where the system has
-/// them, which spares five hundred page faults each.
+/// Memory that is taken in pieces and given back all at once, to the system: what is not touched
+/// costs nothing, and what is given back is free for others at once.
 class ChunkArena {
  public:
   /// @param size  bytes, at most 64 kB
   /// @return      uninitialised, aligned to 16 bytes
   void* allocate(std::size_t size);
 
-  /// Bytes taken from the system.
-  std::size_t size() const { return size_; }
-
  private:
   struct Free {
+    std::size_t size = 0;
     void operator()(std::byte* block) const noexcept;
   };
+  using Block = std::unique_ptr<std::byte[], Free>;
 
-  std::vector<std::unique_ptr<std::byte[], Free>> blocks_;
+  static Block allocate_block(std::size_t size);
+
+  std::vector<Block> blocks_;
   std::byte* cursor_ = nullptr;
   std::byte* end_ = nullptr;
   std::size_t next_block_ = std::size_t{1} << 16;
-  std::size_t size_ = 0;
 };
 
 }  // namespace nacre
