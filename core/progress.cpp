@@ -1,12 +1,12 @@
 #include "core/progress.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace nacre {
 
-ProgressMeter::ProgressMeter(const ProgressCallback& callback, std::string_view stage,
-                             std::size_t steps)
-    : callback_(callback), stage_(stage), steps_(std::max<std::size_t>(steps, 1)) {
+ProgressMeter::ProgressMeter(ProgressCallback callback, std::string_view stage, std::size_t steps)
+    : callback_(std::move(callback)), stage_(stage), steps_(std::max<std::size_t>(steps, 1)) {
   if (callback_) callback_(stage_, 0.0);
 }
 

@@ -17,7 +17,7 @@ using ProgressCallback = std::function<void(std::string_view stage, double fract
 class ProgressMeter {
  public:
   /// Reports 0 at once.
-  ProgressMeter(const ProgressCallback& callback, std::string_view stage, std::size_t steps);
+  ProgressMeter(ProgressCallback callback, std::string_view stage, std::size_t steps);
 
   /// Reports 1.
   ~ProgressMeter();
@@ -29,7 +29,7 @@ class ProgressMeter {
   void advance(std::size_t steps = 1);
 
  private:
-  const ProgressCallback& callback_;
+  ProgressCallback callback_;
   std::string_view stage_;
   std::size_t steps_;
   std::atomic<std::size_t> done_{0};
