@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <fmt/core.h>
 #include <sys/resource.h>
+#include <sys/time.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -18,7 +19,14 @@
 namespace nacre {
 namespace {
 
-constexpr unsigned kPatienceSeconds = 30;
+constexpr int kPatienceSeconds = 30;
+
+/// Ends this process when it has computed for so long; computing, so that a busy machine does not
+/// count.
+void limit_time() {
+  const itimerval patience{{0, 0}, {kPatienceSeconds, 0}};
+  setitimer(ITIMER_PROF, &patience, nullptr);
+}
 
 /// Bytes of address space this process has.
 std::size_t address_space() {
@@ -42,10 +50,10 @@ void make_quiet() {
   dup2(nowhere, STDERR_FILENO);
   const rlimit none{0, 0};
   setrlimit(RLIMIT_CORE, &none);
-  for (const int number : {SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGALRM, SIGPIPE}) {
+  for (const int number : {SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGPROF, SIGPIPE}) {
     std::signal(number, SIG_DFL);
   }
-  alarm(kPatienceSeconds);
+  limit_time();
 }
 
 /// Returns false if the other end is gone.
@@ -67,7 +75,7 @@ bool write_all(int pipe, std::span<const std::byte> bytes) {
   try {
     work([pipe](std::span<const std::byte> bytes) {
       if (!write_all(pipe, bytes)) _exit(1);
-      alarm(kPatienceSeconds);
+      limit_time();
     });
   } catch (const std::exception&) {
     status = 1;

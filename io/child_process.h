@@ -13,7 +13,7 @@ using ByteSink = std::function<void(std::span<const std::byte>)>;
 ///
 /// The child is a copy of this process: it sees all memory as it is now and changes none of it. It
 /// prints nothing. Whatever ends it (an assertion, a crash, an exception, no memory, half a minute
-/// without handing anything back) ends only what `read` can get.
+/// of computing without handing anything back) ends only what `read` can get.
 class ChildProcess {
  public:
   /// Starts `work`; what it gives to the sink is read here in order.

@@ -35,6 +35,8 @@ class ScratchFolder {
 
   /// Writes a file of these bytes; returns its path.
   std::filesystem::path write(const std::string& name, std::string_view bytes) const {
+    // A new file: some file systems wait for the disk where an old one is written over.
+    std::filesystem::remove(path_ / name);
     std::ofstream(path_ / name, std::ios::binary) << bytes;
     return path_ / name;
   }
