@@ -92,7 +92,10 @@ void flying_edges(benchmark::State& state) {
 }
 
 void all_cases(benchmark::internal::Benchmark* bench) {
-  bench->ArgNames({"phantom", "levels"})->Unit(benchmark::kMillisecond)->UseRealTime()->MeasureProcessCPUTime();
+  bench->ArgNames({"phantom", "levels"})
+      ->Unit(benchmark::kMillisecond)
+      ->UseRealTime()
+      ->MeasureProcessCPUTime();
   for (const std::int64_t levels : {1, 12, 48}) bench->Args({0, levels});
   bench->Args({1, 12})->Args({2, 12});
 }
