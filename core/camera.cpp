@@ -47,9 +47,9 @@ glm::dvec2 cos_sin(double angle_rad) {
   if (std::abs(quarters - nearest) > 1e-14 * std::max(1.0, std::abs(quarters))) {
     return {std::cos(angle_rad), std::sin(angle_rad)};
   }
-  constexpr std::array<glm::dvec2, 4> kQuarters{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
+  constexpr std::array<glm::dvec2, 4> quarters_cos_sin{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
   const auto turns = static_cast<int>(std::fmod(nearest, 4.0));
-  return kQuarters[static_cast<std::size_t>((turns + 4) % 4)];
+  return quarters_cos_sin[static_cast<std::size_t>((turns + 4) % 4)];
 }
 
 /// Right-handed rotation of v about a unit axis (Rodrigues).

@@ -29,9 +29,9 @@ double quantile(const SampleRanks& ranks, std::uint64_t first, double fraction) 
 }
 
 Window around(double value) {
-  constexpr double kMost = std::numeric_limits<double>::max();
+  constexpr double most = std::numeric_limits<double>::max();
   const double step = std::max(1.0, std::abs(value) * 1e-6);
-  return {std::max(value - step, -kMost), std::min(value + step, kMost)};
+  return {std::max(value - step, -most), std::min(value + step, most)};
 }
 
 double default_lo(const SampleRanks& ranks, double least, double hi) {
