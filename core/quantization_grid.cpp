@@ -61,7 +61,8 @@ bool is_exact(const QuantizationGrid& grid) noexcept {
 }
 
 glm::vec3 grid_position(const QuantizationGrid& grid, const glm::ivec3& index) noexcept {
-  return glm::vec3(grid.origin_mm + step_mm(grid) * glm::dvec3(index));
+  const glm::vec3 position(grid.origin_mm + step_mm(grid) * glm::dvec3(index));
+  return position;
 }
 
 glm::ivec3 nearest_index(const QuantizationGrid& grid, const glm::dvec3& position_mm) noexcept {

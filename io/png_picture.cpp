@@ -129,6 +129,7 @@ DisplayImage read_png(const std::filesystem::path& path) {
   const std::size_t row_bytes = png_get_rowbytes(reader.png, reader.info);
   std::vector<png_byte> bytes(row_bytes * static_cast<std::size_t>(picture.height));
   std::vector<png_bytep> rows;
+  rows.reserve(static_cast<std::size_t>(picture.height));
   for (int y = 0; y < picture.height; ++y) {
     rows.push_back(bytes.data() + static_cast<std::size_t>(y) * row_bytes);
   }
