@@ -129,8 +129,8 @@ void ClosedMesh::collapse(std::uint32_t h) {
   outgoing_[v] = to_a;
   outgoing_[a] = from_a;
   outgoing_[b] = from_b;
-  kill(h / 3);
-  kill(o / 3);
+  kill_triangle(h / 3);
+  kill_triangle(o / 3);
 }
 
 bool ClosedMesh::can_flip(std::uint32_t h) const {
@@ -169,7 +169,13 @@ void ClosedMesh::flip(std::uint32_t h) {
   outgoing_[u] = t + 2;
 }
 
-void ClosedMesh::kill(std::size_t triangle) {
+void ClosedMesh::kill_vertex(std::uint32_t vertex) {
+  // Neighbours may be gone already, but opposites still tell the way round.
+  for_each_outgoing(vertex, [&](std::uint32_t h) { kill_triangle(h / 3); });
+  outgoing_[vertex] = kNone;
+}
+
+void ClosedMesh::kill_triangle(std::size_t triangle) {
   for (std::size_t i = 0; i < 3; ++i) vertex_[3 * triangle + i] = kNone;
 }
 

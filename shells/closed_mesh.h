@@ -79,14 +79,16 @@ class ClosedMesh {
   /// @pre  can_flip(h)
   void flip(std::uint32_t h);
 
-  /// Removes a triangle. For whole components only: neighbours keep pointing at it.
-  void kill(std::size_t triangle);
+  /// Removes a vertex and its triangles. For all vertices of a component only: those that stay
+  /// would keep pointing at it.
+  void kill_vertex(std::uint32_t vertex);
 
  private:
   void link(std::uint32_t a, std::uint32_t b) {
     opposite_[a] = b;
     opposite_[b] = a;
   }
+  void kill_triangle(std::size_t triangle);
   void match_half_edges(std::size_t vertex_count);
   void split_fans();
 

@@ -98,46 +98,53 @@ bool CollapseGuard::keeps_error(const FanMove& move) const {
   });
 }
 
-/// Bound of the distance to the input after the move: what was spent on the fan before, and how far
-/// the fan moves.
-double CollapseGuard::distance_after(const FanMove& move) const {
-  double spent = 0.0;
-  for (const FanTriangle& t : move.kept) spent = std::max(spent, double{face_distance_[t.face]});
-  for (const FanTriangle& t : move.removed) spent = std::max(spent, double{face_distance_[t.face]});
-  double moved = 0.0;
-  const auto add = [&](const FanTriangle& from, const glm::dvec3& apex, const glm::dvec3& to) {
-    const auto visit = [&](const glm::dvec3& p) {
-      double nearest = std::numeric_limits<double>::infinity();
-      for (const FanTriangle& t : move.kept) {
-        nearest = std::min(nearest, squared_distance_to_triangle(p, to, t.a, t.b));
+/// Distance between the fan before and after, sampled both ways: at the vertex that goes, the
+/// middles of the edges that move, and the centres of the triangles they move to. More than
+/// `enough` is not told apart.
+double CollapseGuard::distance_moved(const FanMove& move, double enough) const {
+  double farthest = 0.0;
+  const auto visit = [&](const glm::dvec3& p, const glm::dvec3& apex, bool is_after) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const FanTriangle& t : move.kept) {
+      nearest = std::min(nearest, squared_distance_to_triangle(p, apex, t.a, t.b));
+    }
+    if (!is_after) {
+      for (const FanTriangle& t : move.removed) {
+        nearest = std::min(nearest, squared_distance_to_triangle(p, apex, t.a, t.b));
       }
-      if (to == move.before) {
-        for (const FanTriangle& t : move.removed) {
-          nearest = std::min(nearest, squared_distance_to_triangle(p, to, t.a, t.b));
-        }
-      }
-      moved = std::max(moved, nearest);
-      return true;
-    };
-    visit(apex);
-    // Samples of the fan, not of the field: the middles and the centre will do.
-    visit_samples(apex, from.a, from.b, std::numeric_limits<double>::infinity(), visit);
+    }
+    farthest = std::max(farthest, std::sqrt(nearest));
+    return farthest <= enough;
   };
+  if (!visit(move.before, move.after, true)) return farthest;
   for (const FanTriangle& t : move.kept) {
-    add(t, move.before, move.after);
-    add(t, move.after, move.before);
+    if (!visit(0.5 * (move.before + t.a), move.after, true) ||
+        !visit(0.5 * (move.after + t.a), move.before, false) ||
+        !visit((move.after + t.a + t.b) / 3.0, move.before, false)) {
+      return farthest;
+    }
   }
-  for (const FanTriangle& t : move.removed) add(t, move.before, move.after);
-  return spent + std::sqrt(moved);
+  return farthest;
+}
+
+/// What has been spent of the distance on the fan's triangles.
+double CollapseGuard::distance_spent(const FanMove& move) const {
+  float spent = 0.0f;
+  for (const FanTriangle& t : move.kept) spent = std::max(spent, face_distance_[t.face]);
+  for (const FanTriangle& t : move.removed) spent = std::max(spent, face_distance_[t.face]);
+  return spent;
 }
 
 bool CollapseGuard::keeps_distance(const FanMove& move) const {
-  return options_.tolerance_mm <= 0.0 || distance_after(move) <= options_.tolerance_mm;
+  if (options_.tolerance_mm <= 0.0) return true;
+  const double left = options_.tolerance_mm - distance_spent(move);
+  return left > 0.0 && distance_moved(move, left) <= left;
 }
 
 void CollapseGuard::commit(const FanMove& move) {
   if (options_.tolerance_mm > 0.0) {
-    const auto distance = static_cast<float>(distance_after(move));
+    const double whole = std::numeric_limits<double>::infinity();
+    const auto distance = static_cast<float>(distance_spent(move) + distance_moved(move, whole));
     for (const FanTriangle& t : move.kept) face_distance_[t.face] = distance;
   }
   if (options_.error) {

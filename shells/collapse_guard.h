@@ -44,7 +44,8 @@ class CollapseGuard {
   bool keeps_shape(const FanMove& move) const;
   bool keeps_error(const FanMove& move) const;
   bool keeps_distance(const FanMove& move) const;
-  double distance_after(const FanMove& move) const;
+  double distance_moved(const FanMove& move, double enough) const;
+  double distance_spent(const FanMove& move) const;
   double error_over(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) const;
 
   const SimplifyOptions& options_;

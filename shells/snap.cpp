@@ -35,6 +35,7 @@ class Snapper {
  public:
   Snapper(const TriangleMesh& surface, const QuantizationGrid& grid);
 
+  void find_components();
   void collapse_coincident_edges();
   void separate_coincident_vertices();
   void resolve_degenerate_triangles();
@@ -64,7 +65,9 @@ class Snapper {
   const TriangleMesh& surface_;
   const QuantizationGrid& grid_;
   ClosedMesh mesh_;
-  std::vector<GridIndex> points_;  ///< of each vertex of `mesh_`
+  std::vector<GridIndex> points_;         ///< of each vertex of `mesh_`
+  std::vector<std::uint32_t> component_;  ///< of each vertex: the component's least vertex
+  std::vector<int> sense_;                ///< of each component: the sign of its volume
   OccupiedPoints occupied_;
   SnapReport report_;
 };
@@ -83,7 +86,9 @@ Snapper::Snapper(const TriangleMesh& surface, const QuantizationGrid& grid)
 void Snapper::collapse_coincident_edges() {
   std::vector<std::uint32_t> edges;
   for (std::uint32_t h = 0; h < mesh_.half_edge_count(); ++h) {
-    if (h < mesh_.opposite(h) && points_[mesh_.from(h)] == points_[mesh_.to(h)]) edges.push_back(h);
+    if (mesh_.is_alive(h / 3) && h < mesh_.opposite(h) &&
+        points_[mesh_.from(h)] == points_[mesh_.to(h)])
+      edges.push_back(h);
   }
   for (bool changed = true; changed;) {
     changed = false;
@@ -225,35 +230,45 @@ bool Snapper::nudge(std::uint32_t v, int reach) {
 int sign(double x) { return (x > 0.0) - (x < 0.0); }
 int sign(Wide x) { return (x > 0) - (x < 0); }
 
-/// Drops components whose volume is zero on the grid, or has changed its sign.
-void Snapper::drop_vanished_components() {
-  DisjointSets components(mesh_.vertex_count());
+/// Labels components by a vertex of theirs, and notes which way round each is.
+void Snapper::find_components() {
+  DisjointSets sets(mesh_.vertex_count());
   for (std::size_t t = 0; t < mesh_.triangle_count(); ++t) {
-    if (!mesh_.is_alive(t)) continue;
-    components.join(mesh_.triangle(t).x, mesh_.triangle(t).y);
-    components.join(mesh_.triangle(t).y, mesh_.triangle(t).z);
+    sets.join(mesh_.triangle(t).x, mesh_.triangle(t).y);
+    sets.join(mesh_.triangle(t).y, mesh_.triangle(t).z);
   }
-  // Volumes relative to a vertex of the component: what is small stays exact in double, too.
-  std::vector<Wide> snapped(mesh_.vertex_count(), 0);
-  std::vector<double> before(mesh_.vertex_count(), 0.0);
+  component_.resize(mesh_.vertex_count());
+  for (std::uint32_t v = 0; v < component_.size(); ++v) component_[v] = sets.root(v);
+  std::vector<double> volume(mesh_.vertex_count(), 0.0);
+  for (std::size_t t = 0; t < mesh_.triangle_count(); ++t) {
+    const glm::uvec3 c = mesh_.triangle(t);
+    const std::uint32_t label = component_[c.x];
+    // Relative to a vertex of the component: what is small stays exact.
+    const glm::dvec3 a = target(c.x);
+    volume[label] += glm::dot(a - target(label), glm::cross(target(c.y) - a, target(c.z) - a));
+  }
+  sense_.resize(mesh_.vertex_count());
+  std::transform(volume.begin(), volume.end(), sense_.begin(), [](double v) { return sign(v); });
+}
+
+/// Drops components whose volume on the grid, exact, is zero or has changed its sign.
+void Snapper::drop_vanished_components() {
+  std::vector<Wide> volume(mesh_.vertex_count(), 0);
   for (std::size_t t = 0; t < mesh_.triangle_count(); ++t) {
     if (!mesh_.is_alive(t)) continue;
     const glm::uvec3 c = mesh_.triangle(t);
-    const std::uint32_t root = components.root(c.x);
     const glm::i64vec3 normal = twice_area(points_[c.x], points_[c.y], points_[c.z]);
-    const glm::i64vec3 offset(points_[c.x] - points_[root]);
-    for (int axis = 0; axis < 3; ++axis) snapped[root] += Wide{offset[axis]} * normal[axis];
-    const glm::dvec3 a = target(c.x);
-    before[root] += glm::dot(a - target(root), glm::cross(target(c.y) - a, target(c.z) - a));
+    const glm::i64vec3 offset(points_[c.x]);
+    Wide& sum = volume[component_[c.x]];
+    for (int axis = 0; axis < 3; ++axis) sum += Wide{offset[axis]} * normal[axis];
   }
+  std::vector<bool> vanished(mesh_.vertex_count(), false);
   for (std::uint32_t v = 0; v < mesh_.vertex_count(); ++v) {
-    if (is_alive(v) && components.root(v) == v && sign(snapped[v]) != sign(before[v])) {
-      snapped[v] = 0;
-      ++report_.dropped_components;
-    }
-  }
-  for (std::size_t t = 0; t < mesh_.triangle_count(); ++t) {
-    if (mesh_.is_alive(t) && snapped[components.root(mesh_.triangle(t).x)] == 0) mesh_.kill(t);
+    const std::uint32_t label = component_[v];
+    if (!is_alive(v) || (volume[label] != 0 && sign(volume[label]) == sense_[label])) continue;
+    if (!vanished[label]) ++report_.dropped_components;
+    vanished[label] = true;
+    mesh_.kill_vertex(v);
   }
 }
 
@@ -296,6 +311,9 @@ SnappedSurface snap(const TriangleMesh& surface, const QuantizationGrid& grid) {
                 "expected an exact one");
   }
   Snapper snapper(surface, grid);
+  snapper.find_components();
+  // What vanishes on rounding goes at once, what turns over on making way, at the end.
+  snapper.drop_vanished_components();
   snapper.collapse_coincident_edges();
   snapper.separate_coincident_vertices();
   snapper.resolve_degenerate_triangles();

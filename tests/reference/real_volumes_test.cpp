@@ -33,7 +33,7 @@ constexpr int kSide = 24;         // pixels
 constexpr double kEnough = 60.0;  // dB
 #else
 // Debug builds take a hundred times as long: a few pixels, of which a single one counts for more.
-constexpr int kSide = 6;
+constexpr int kSide = 10;
 constexpr double kEnough = 50.0;
 #endif
 

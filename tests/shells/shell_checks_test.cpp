@@ -34,9 +34,9 @@ TEST(ShellChecks, TellsATorusFromASphere) {
 // Inscribed, so off by the second order of the edge length.
 TEST(ShellChecks, ApproachesTheSpheresVolumeAndArea) {
   constexpr double kPi = std::numbers::pi;
-  const ShellReport report = check_shell(sphere_surface(2.0f, 48));
-  EXPECT_NEAR(report.volume_mm3, 32.0 / 3.0 * kPi, 0.003 * report.volume_mm3);
-  EXPECT_NEAR(report.area_mm2, 16.0 * kPi, 0.002 * report.area_mm2);
+  const ShellReport report = check_shell(sphere_surface(2.0f, 30));
+  EXPECT_NEAR(report.volume_mm3, 32.0 / 3.0 * kPi, 0.006 * report.volume_mm3);
+  EXPECT_NEAR(report.area_mm2, 16.0 * kPi, 0.004 * report.area_mm2);
 }
 
 TEST(ShellChecks, CountsComponents) {
@@ -109,7 +109,7 @@ TEST(ShellChecks, FindsWhereSheetsTouch) {
 TEST(ShellChecks, FindsTrianglesWithoutArea) {
   TriangleMesh mesh = cube_surface(1.0f, 2);
   for (glm::vec3& p : mesh.positions) {
-    if (p == glm::vec3(0, 0, 1)) p = {0.5f, 0.5f, 1.0f};  // onto a diagonal's middle
+    if (p == glm::vec3(0, 0, 1)) p = {1.0f, 0.5f, 1.0f};  // onto the square's far side
   }
   EXPECT_GT(check_shell(mesh).degenerate, 0u);
 }

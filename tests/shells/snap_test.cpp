@@ -52,7 +52,7 @@ TEST(Snap, MovesNothingFurtherThanHalfAStep) {
 
 TEST(Snap, IsAFixedPoint) {
   const QuantizationGrid grid = grid_with_step(0.25);
-  const TriangleMesh once = snap(torus_surface(10.0f, 3.0f, 200, 100), grid).mesh;
+  const TriangleMesh once = snap(torus_surface(10.0f, 3.0f, 80, 40), grid).mesh;
   const SnappedSurface twice = snap(once, grid);
   EXPECT_EQ(twice.mesh.positions, once.positions);
   EXPECT_EQ(twice.mesh.triangles, once.triangles);
@@ -62,7 +62,7 @@ TEST(Snap, IsAFixedPoint) {
 TEST(Snap, CleansWhatCollapses) {
   const QuantizationGrid grid = grid_with_step(1.0);
   for (const TriangleMesh& mesh :
-       {sphere_surface(12.3f, 120), torus_surface(20.0f, 6.0f, 300, 90)}) {
+       {sphere_surface(12.3f, 50), torus_surface(20.0f, 6.0f, 200, 60)}) {
     const SnappedSurface snapped = snap(mesh, grid);
     expect_clean(snapped.mesh, grid);
     EXPECT_GT(snapped.report.collapsed_edges, mesh.positions.size() / 2);
@@ -85,10 +85,20 @@ TEST(Snap, KeepsTouchingSheetsApart) {
 
 TEST(Snap, KeepsASheetThinnerThanAStep) {
   const QuantizationGrid grid = grid_with_step(kStep);
-  TriangleMesh plate = cube_surface(2.0f, 16);
-  for (glm::vec3& p : plate.positions) p.z *= 1e-3f;
-  const SnappedSurface snapped = snap(plate, grid);
+  TriangleMesh wedge = cube_surface(2.0f, 12);
+  for (glm::vec3& p : wedge.positions) p.z *= 0.01f + 0.01f * p.x;
+  const SnappedSurface snapped = snap(wedge, grid);
   expect_clean(snapped.mesh, grid);
+  EXPECT_EQ(check_shell(snapped.mesh).euler, 2);
+  EXPECT_GT(check_shell(snapped.mesh).volume_mm3, 0.0);
+}
+
+TEST(Snap, ASheetWithoutVolumeVanishes) {
+  TriangleMesh plate = cube_surface(2.0f, 12);
+  for (glm::vec3& p : plate.positions) p.z *= 1e-3f;
+  const SnappedSurface snapped = snap(plate, grid_with_step(kStep));
+  EXPECT_TRUE(snapped.mesh.triangles.empty());
+  EXPECT_EQ(snapped.report.dropped_components, 1u);
 }
 
 TEST(Snap, SpecksBelowAStepVanish) {
@@ -100,9 +110,8 @@ TEST(Snap, SpecksBelowAStepVanish) {
   }
   const SnappedSurface snapped = snap(mesh, grid);
   expect_clean(snapped.mesh, grid);
-  EXPECT_GE(check_shell(snapped.mesh).components, 1u);
-  EXPECT_GT(check_shell(snapped.mesh).volume_mm3, 0.0);
-  EXPECT_LT(snapped.mesh.triangles.size(), sphere_surface(4.0f, 8).triangles.size() + 5 * 4 + 1);
+  EXPECT_EQ(check_shell(snapped.mesh).components, 1u);
+  EXPECT_EQ(snapped.report.dropped_components, 5u);
 }
 
 TEST(Snap, KeepsCavities) {
@@ -129,7 +138,7 @@ TEST(Snap, ResolvesCollinearTriangles) {
 
 TEST(Snap, SurvivesNoise) {
   const QuantizationGrid grid = grid_with_step(0.5);
-  for (unsigned seed = 1; seed <= 20; ++seed) {
+  for (unsigned seed = 1; seed <= 8; ++seed) {
     TriangleMesh mesh = torus_surface(8.0f, 3.0f, 60, 40);
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> offset(-1.0f, 1.0f);
