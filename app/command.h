@@ -68,8 +68,8 @@ class Stopwatch {
 /// Largest resident memory of this process so far, bytes.
 std::size_t peak_rss_bytes();
 
-/// Has the allocator give large blocks back to the system when they are freed, and not keep them for
-/// later ones: a build's peak is then what it holds, not the sum of what its stages held. To be
+/// Has the allocator give large blocks back to the system when they are freed, and not keep them
+/// for later ones: a build's peak is then what it holds, not the sum of what its stages held. To be
 /// called first of all.
 void return_large_blocks();
 

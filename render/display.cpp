@@ -29,8 +29,9 @@ void check(const DisplayWindow& window, std::string_view color_map) {
                 fmt::format("display window: found {},{}, expected LO < HI", window.lo, window.hi));
   }
   if (std::find(kColorMaps.begin(), kColorMaps.end(), color_map) == kColorMaps.end()) {
-    throw Error(ErrorCode::BadArgument,
-                fmt::format("colour map: found '{}', expected gray, gray-inverted or hot", color_map));
+    throw Error(
+        ErrorCode::BadArgument,
+        fmt::format("colour map: found '{}', expected gray, gray-inverted or hot", color_map));
   }
 }
 
