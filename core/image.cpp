@@ -10,4 +10,14 @@ Image make_image(int width, int height) {
   return image;
 }
 
+ToolLayer make_tool_layer(int width, int height) {
+  ToolLayer layer;
+  layer.width = width;
+  layer.height = height;
+  const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  layer.colors.assign(pixels, glm::vec3(0.0f));
+  layer.covered.assign(pixels, 0);
+  return layer;
+}
+
 }  // namespace nacre

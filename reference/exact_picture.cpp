@@ -1,11 +1,7 @@
 #include "reference/exact_picture.h"
 
-#include <fmt/core.h>
 #include <tbb/blocked_range2d.h>
 #include <tbb/parallel_for.h>
-
-#include <algorithm>
-#include <glm/geometric.hpp>
 
 #include "core/error.h"
 
@@ -17,22 +13,10 @@ void check(const ExactPictureOptions& options) {
     throw Error(ErrorCode::BadArgument,
                 "exact picture: found a mode of shells, expected max or sum");
   }
-  if (!(options.slab.near_mm < options.slab.far_mm)) {
-    throw Error(ErrorCode::BadArgument, fmt::format("slab: found {},{}, expected NEAR < FAR",
-                                                    options.slab.near_mm, options.slab.far_mm));
-  }
+  check_slab(options.slab);
 }
 
 }  // namespace
-
-RayInterval visible_interval(const Camera& camera, const Ray& ray, const Slab& slab) {
-  // Depth along the viewing direction rises linearly with t: depth = start + advance * t.
-  const double start = slab_depth_mm(camera, ray.origin_mm);
-  const double advance = glm::dot(ray.direction, camera.forward);
-  RayInterval interval{(slab.near_mm - start) / advance, (slab.far_mm - start) / advance};
-  if (camera.perspective) interval.t_begin_mm = std::max(interval.t_begin_mm, 0.0);
-  return interval;
-}
 
 Image exact_picture(const ExactWalk& walk, const Camera& camera, const ExactPictureOptions& options,
                     const ProgressCallback& progress) {

@@ -23,7 +23,4 @@ struct ExactPictureOptions {
 Image exact_picture(const ExactWalk& walk, const Camera& camera,
                     const ExactPictureOptions& options = {}, const ProgressCallback& progress = {});
 
-/// The part of a ray that a camera shows: in front of the eye, and inside the slab.
-RayInterval visible_interval(const Camera& camera, const Ray& ray, const Slab& slab);
-
 }  // namespace nacre

@@ -1,19 +1,13 @@
 #pragma once
 
-#include <limits>
 #include <memory>
 
 #include "core/camera.h"
 #include "core/emission.h"
+#include "core/picture.h"
 #include "core/volume.h"
 
 namespace nacre {
-
-/// The part of a ray that counts, in mm from its origin. Infinite ends are allowed.
-struct RayInterval {
-  double t_begin_mm = -std::numeric_limits<double>::infinity();
-  double t_end_mm = std::numeric_limits<double>::infinity();
-};
 
 /// Exact maximum and integral of a volume's emission along rays.
 ///

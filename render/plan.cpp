@@ -81,22 +81,15 @@ void check(const SceneFacts& scene, const RenderOptions& options) {
                                                       shell + 1, scene.shells.size()));
     }
   }
-  const DepthCue& cue = options.cue;
-  const double beta_far = cue.beta0 + cue.b;
-  const double beta_near = beta_far + cue.a;
-  if (!std::isfinite(beta_far) || !std::isfinite(beta_near) || beta_far < 0.0 || beta_near < 0.0) {
-    throw Error(ErrorCode::BadArgument,
-                fmt::format("depth cue: found {} at the far and {} at the near end, expected "
-                            "finite numbers of 0 or more",
-                            beta_far, beta_near));
-  }
+  check_cue(options.cue);
   if (options.mode != PictureMode::Max) {
     throw Error(ErrorCode::Unsupported,
                 "picture mode: this renderer draws the maximum projection only");
   }
-  if (cue.a != 0.0) {
-    throw Error(ErrorCode::Unsupported,
-                fmt::format("depth cue: found a = {}, this renderer draws a = 0 only", cue.a));
+  if (!is_flat(options.cue)) {
+    throw Error(
+        ErrorCode::Unsupported,
+        fmt::format("depth cue: found a = {}, this renderer draws a = 0 only", options.cue.a));
   }
   if (std::isfinite(options.slab.near_mm) || std::isfinite(options.slab.far_mm)) {
     throw Error(ErrorCode::Unsupported, "slab: this renderer draws whole volumes only");
@@ -201,9 +194,9 @@ Plan make_plan(const SceneFacts& scene, const Camera& camera, const RenderOption
 
   const ShellIndices shown = shown_shells(scene, camera, options, plan.left_out);
   const Ranks ranks = rank_shells(scene, shown, options.depth);
-  const double beta = options.cue.beta0 + options.cue.b;
+  const double factor = beta(options.cue, 0.0);
   for (const double representative : ranks.representatives) {
-    plan.emission_of_rank.push_back(static_cast<float>(beta * representative));
+    plan.emission_of_rank.push_back(static_cast<float>(factor * representative));
   }
   if (!shown.empty()) {
     plan.passes.push_back(max_depth_pass(scene, camera, options, shown, ranks));
