@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstddef>
+#include <glm/vec2.hpp>
+#include <memory>
+#include <span>
+
+#include "core/image.h"
+#include "render/cpu/cluster_kernel.h"
+#include "render/projection.h"
+
+namespace nacre {
+
+/// The greatest rank of each pixel, gathered by many threads without a lock: each has pixels of its
+/// own, and `resolve` takes the greatest of them.
+template <class Rank>
+class RankPicture {
+ public:
+  RankPicture();
+  ~RankPicture();
+  RankPicture(RankPicture&&) noexcept;
+  RankPicture& operator=(RankPicture&&) noexcept;
+
+  /// Starts a picture of that size, all pixels 0.
+  void begin(const glm::ivec2& size);
+
+  /// The calling thread's pixels.
+  RankTarget<Rank> target();
+
+  /// Writes the emission of each pixel's rank into a rectangle of the image.
+  /// @pre  the rectangle has the picture's size; ranks are below emission_of_rank.size()
+  void resolve(std::span<const float> emission_of_rank, const PixelRect& rect, Image& image);
+
+ private:
+  class Layers;
+  std::unique_ptr<Layers> layers_;
+};
+
+}  // namespace nacre
