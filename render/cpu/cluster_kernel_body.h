@@ -250,55 +250,6 @@ bool project(const Kernel<Rank>& kernel, const float* positions, int count, Pixe
   return true;
 }
 
-/// A lane's triangle, ready to be covered.
-struct LaneTriangles {
-  alignas(64) std::int32_t value[3][kLanes];  // edge functions at the first centre, biased
-  alignas(64) std::int32_t edge[3][kLanes];   // x in the lower half
-  alignas(64) std::int32_t first[kLanes];     // pixel, x in the lower half
-  alignas(64) std::int32_t last[kLanes];
-};
-
-inline int low(std::int32_t pair) { return static_cast<std::int16_t>(pair & 0xFFFF); }
-inline int high(std::int32_t pair) { return pair >> 16; }
-
-template <class Rank>
-inline void raise(Rank& pixel, Rank rank) {
-  pixel = pixel < rank ? rank : pixel;
-}
-
-template <class Rank>
-inline void cover(const LaneTriangles& lanes, int i, Rank* origin, int stride, Rank rank) {
-  const int first_x = low(lanes.first[i]);
-  const int last_x = low(lanes.last[i]);
-  const int last_y = high(lanes.last[i]);
-  std::int32_t row0 = lanes.value[0][i];
-  std::int32_t row1 = lanes.value[1][i];
-  std::int32_t row2 = lanes.value[2][i];
-  const std::int32_t x0 = -high(lanes.edge[0][i]) * kSubpixels;
-  const std::int32_t x1 = -high(lanes.edge[1][i]) * kSubpixels;
-  const std::int32_t x2 = -high(lanes.edge[2][i]) * kSubpixels;
-  const std::int32_t y0 = low(lanes.edge[0][i]) * kSubpixels;
-  const std::int32_t y1 = low(lanes.edge[1][i]) * kSubpixels;
-  const std::int32_t y2 = low(lanes.edge[2][i]) * kSubpixels;
-  for (int y = high(lanes.first[i]);; ++y) {
-    std::int32_t value0 = row0;
-    std::int32_t value1 = row1;
-    std::int32_t value2 = row2;
-    Rank* row = origin + static_cast<std::ptrdiff_t>(y) * stride;
-    for (int x = first_x;; ++x) {
-      if ((value0 | value1 | value2) >= 0) raise(row[x], rank);
-      if (x == last_x) break;
-      value0 += x0;
-      value1 += x1;
-      value2 += x2;
-    }
-    if (y == last_y) break;
-    row0 += y0;
-    row1 += y1;
-    row2 += y2;
-  }
-}
-
 /// The target's pixels as seen from a cluster's origin, as pairs.
 struct Clip {
   Shorts first, last;
@@ -306,84 +257,240 @@ struct Clip {
 
 inline int bounded(int pixel) { return pixel < -256 ? -256 : (pixel > 256 ? 256 : pixel); }
 
-inline Shorts pair(int x, int y) {
-  return bits_as<Shorts>(Ints{} + ((bounded(x) & 0xFFFF) | bounded(y) * 65536));
-}
+inline Shorts both(int x, int y) { return bits_as<Shorts>(Ints{} + ((x & 0xFFFF) | y * 65536)); }
 
 template <class Rank>
 Clip clip_of(const Kernel<Rank>& kernel, const PixelVertices& vertices) {
-  return {pair(-vertices.origin_x, -vertices.origin_y),
-          pair(kernel.target.width - 1 - vertices.origin_x,
-               kernel.target.height - 1 - vertices.origin_y)};
+  return {both(bounded(-vertices.origin_x), bounded(-vertices.origin_y)),
+          both(bounded(kernel.target.width - 1 - vertices.origin_x),
+               bounded(kernel.target.height - 1 - vertices.origin_y))};
 }
 
-template <class Rank>
-void draw_lanes(const Shorts& a, Shorts b, Shorts c, Faces faces, const Clip& clip, Rank* origin,
-                int stride, Rank rank) {
-  Ints area = dot(b - a, turned(c - a));
-  if (faces == Faces::Both) {
-    const Ints swap = area < 0;
-    const Ints ints_b = bits_as<Ints>(b);
-    const Ints ints_c = bits_as<Ints>(c);
-    b = bits_as<Shorts>(swap ? ints_c : ints_b);
-    c = bits_as<Shorts>(swap ? ints_b : ints_c);
-    area = swap ? -area : area;
-  }
-  const Shorts lo = least(least(a, b), c);
-  const Shorts hi = greatest(greatest(a, b), c);
+/// Corners of as many triangles as there are lanes.
+struct Triangles {
+  Shorts a, b, c;
+};
+
+/// Pixels whose centres may be covered.
+struct Centers {
+  Shorts first, last;
+};
+
+inline Centers centers_of(const Triangles& triangles, const Clip& clip) {
+  const Shorts lo = least(least(triangles.a, triangles.b), triangles.c);
+  const Shorts hi = greatest(greatest(triangles.a, triangles.b), triangles.c);
   // Centres lie at 128, 384, ... sub-pixels.
   constexpr std::int16_t kHalf = kSubpixels / 2;
   constexpr std::int16_t kBelowHalf = kHalf - 1;
-  const Shorts first = greatest((lo + kBelowHalf) >> kSubpixelBits, clip.first);
-  const Shorts last = least((hi - kHalf) >> kSubpixelBits, clip.last);
-  const Ints empty = bits_as<Ints>(first > last);
-  unsigned some = sign_bits((empty == 0) & (area > 0));
-  if (some == 0) return;
+  return {greatest((lo + kBelowHalf) >> kSubpixelBits, clip.first),
+          least((hi - kHalf) >> kSubpixelBits, clip.last)};
+}
 
-  const Shorts center = (first << kSubpixelBits) + kHalf;
-  const Shorts ab = b - a;
-  const Shorts bc = c - b;
-  const Shorts ca = a - c;
-  LaneTriangles lanes;
-  const Ints value0 = dot(ab, turned(center - a)) + edge_bias(ab);
-  const Ints value1 = dot(bc, turned(center - b)) + edge_bias(bc);
-  const Ints value2 = dot(ca, turned(center - c)) + edge_bias(ca);
-  store(lanes.first, first);
-  const Ints single = bits_as<Ints>(first) == bits_as<Ints>(last);
-  const unsigned one = sign_bits(single);
-  unsigned hit = some & one & ~sign_bits(value0 | value1 | value2);
-  for (; hit != 0; hit &= hit - 1) {
-    const std::int32_t pixel = lanes.first[__builtin_ctz(hit)];
-    raise(origin[static_cast<std::ptrdiff_t>(high(pixel)) * stride + low(pixel)], rank);
+/// Twice the areas, positive for the faces drawn; corners are exchanged where both faces are.
+inline Ints orient(Triangles& triangles, bool both_faces) {
+  const Ints area = dot(triangles.b - triangles.a, turned(triangles.c - triangles.a));
+  if (!both_faces) return area;
+  const Ints swap = area < 0;
+  const Ints b = bits_as<Ints>(triangles.b);
+  const Ints c = bits_as<Ints>(triangles.c);
+  triangles.b = bits_as<Shorts>(swap ? c : b);
+  triangles.c = bits_as<Shorts>(swap ? b : c);
+  return swap ? -area : area;
+}
+
+/// The corners of a cluster's triangles, in the order in which the faces drawn are clockwise.
+struct CornerArrays {
+  const std::uint8_t* first;
+  const std::uint8_t* second;
+  const std::uint8_t* third;
+};
+
+inline Triangles gather(const std::int32_t* vertices, const CornerArrays& corners, int t) {
+  return {gather(vertices, corners.first + t), gather(vertices, corners.second + t),
+          gather(vertices, corners.third + t)};
+}
+
+inline Triangles gather_listed(const std::int32_t* vertices, const CornerArrays& corners,
+                               const std::uint8_t* list) {
+  Ints a;
+  Ints b;
+  Ints c;
+  for (int i = 0; i < kLanes; ++i) {
+    a[i] = vertices[corners.first[list[i]]];
+    b[i] = vertices[corners.second[list[i]]];
+    c[i] = vertices[corners.third[list[i]]];
   }
-  some &= ~one;
-  if (some == 0) return;
-  store(lanes.last, last);
-  store(lanes.value[0], value0);
-  store(lanes.value[1], value1);
-  store(lanes.value[2], value2);
-  store(lanes.edge[0], ab);
-  store(lanes.edge[1], bc);
-  store(lanes.edge[2], ca);
-  for (; some != 0; some &= some - 1) cover(lanes, __builtin_ctz(some), origin, stride, rank);
+  return {bits_as<Shorts>(a), bits_as<Shorts>(b), bits_as<Shorts>(c)};
+}
+
+/// Lists the triangles that are turned the right way and have a centre within their bounds: few, as
+/// most triangles are smaller than a pixel. The list is padded to whole vectors.
+inline int list_candidates(const PixelVertices& vertices, const CornerArrays& corners, int count,
+                           bool both_faces, const Clip& clip, std::uint8_t* list) {
+  int listed = 0;
+  for (int t = 0; t < count; t += kLanes) {
+    Triangles triangles = gather(vertices.xy, corners, t);
+    const Ints area = orient(triangles, both_faces);
+    const Centers centers = centers_of(triangles, clip);
+    const Ints empty = bits_as<Ints>(centers.first > centers.last);
+    unsigned some = sign_bits((empty == 0) & (area > 0));
+    for (; some != 0; some &= some - 1) {
+      list[listed++] = static_cast<std::uint8_t>(t + __builtin_ctz(some));
+    }
+  }
+  for (int i = 0; i < kLanes; ++i) list[listed + i] = 0;
+  return listed;
+}
+
+/// The three edge functions of triangles, not negative where a centre is covered.
+struct Edges {
+  Ints value[3];   // at the pixel where a walk stands
+  Ints step_x[3];  // from pixel to pixel
+  Ints step_y[3];
+};
+
+inline void set_edge(Edges& edges, int k, const Shorts& from, const Shorts& to,
+                     const Shorts& center) {
+  const Shorts edge = to - from;
+  const Ints pairs = bits_as<Ints>(edge);
+  edges.value[k] = dot(edge, turned(center - from)) + edge_bias(edge);
+  edges.step_x[k] = -(pairs >> 16) << kSubpixelBits;
+  edges.step_y[k] = (pairs << 16) >> (16 - kSubpixelBits);
+}
+
+inline Edges edges_of(const Triangles& triangles, const Shorts& first) {
+  constexpr std::int16_t kHalf = kSubpixels / 2;
+  const Shorts center = (first << kSubpixelBits) + kHalf;
+  Edges edges;
+  set_edge(edges, 0, triangles.a, triangles.b, center);
+  set_edge(edges, 1, triangles.b, triangles.c, center);
+  set_edge(edges, 2, triangles.c, triangles.a, center);
+  return edges;
+}
+
+template <class Rank>
+inline void raise(Rank& pixel, Rank rank) {
+  pixel = pixel < rank ? rank : pixel;
+}
+
+/// Up to this side, triangles are walked side by side, one a lane; larger ones one by one.
+constexpr int kSmallSide = 4;
+
+/// Covers small triangles: all lanes step through the largest of their rectangles together.
+template <class Rank>
+void cover_small(Edges edges, const Ints& columns, const Ints& rows, const std::int32_t* offsets,
+                 int most_columns, int most_rows, Rank* origin, std::ptrdiff_t stride, Rank rank) {
+  for (int y = 0;; ++y) {
+    Ints value0 = edges.value[0];
+    Ints value1 = edges.value[1];
+    Ints value2 = edges.value[2];
+    const Ints beyond_row = rows - y;
+    Rank* row = origin + y * stride;
+    for (int x = 0;; ++x) {
+      unsigned hit = (1U << kLanes) - 1;
+      hit &= ~sign_bits(value0 | value1 | value2 | (columns - x) | beyond_row);
+      for (; hit != 0; hit &= hit - 1) raise(row[offsets[__builtin_ctz(hit)] + x], rank);
+      if (x == most_columns) break;
+      value0 += edges.step_x[0];
+      value1 += edges.step_x[1];
+      value2 += edges.step_x[2];
+    }
+    if (y == most_rows) break;
+    for (int k = 0; k < 3; ++k) edges.value[k] += edges.step_y[k];
+  }
+}
+
+/// 0, 1, 2, ...
+inline Ints lane_numbers() {
+  Ints numbers;
+  for (int i = 0; i < kLanes; ++i) numbers[i] = i;
+  return numbers;
+}
+
+/// Covers one triangle, pixels side by side.
+template <class Rank>
+void cover_large(const Edges& edges, int lane, int columns, int rows, Rank* first,
+                 std::ptrdiff_t stride, Rank rank) {
+  Ints start[3];
+  Ints across[3];
+  for (int k = 0; k < 3; ++k) {
+    start[k] = edges.value[k][lane] + lane_numbers() * edges.step_x[k][lane];
+    across[k] = Ints{} + kLanes * edges.step_x[k][lane];
+  }
+  for (int y = 0; y <= rows; ++y) {
+    Ints value0 = start[0];
+    Ints value1 = start[1];
+    Ints value2 = start[2];
+    Rank* row = first + y * stride;
+    for (int x = 0; x <= columns; x += kLanes) {
+      const Ints left = columns - x - lane_numbers();
+      unsigned hit = (1U << kLanes) - 1;
+      hit &= ~sign_bits(value0 | value1 | value2 | left);
+      if (hit == (1U << kLanes) - 1) {
+        for (int i = 0; i < kLanes; ++i) raise(row[x + i], rank);
+      } else {
+        for (; hit != 0; hit &= hit - 1) raise(row[x + __builtin_ctz(hit)], rank);
+      }
+      value0 += across[0];
+      value1 += across[1];
+      value2 += across[2];
+    }
+    for (int k = 0; k < 3; ++k) start[k] += edges.step_y[k][lane];
+  }
+}
+
+inline int greatest_lane(const Ints& v) {
+  int most = v[0];
+  for (int i = 1; i < kLanes; ++i) most = v[i] > most ? v[i] : most;
+  return most;
+}
+
+/// Covers the first `used` of the lanes' triangles.
+template <class Rank>
+void cover(Triangles& triangles, int used, bool both_faces, const Clip& clip, Rank* origin,
+           int stride, Rank rank) {
+  orient(triangles, both_faces);
+  const Centers centers = centers_of(triangles, clip);
+  const Edges edges = edges_of(triangles, centers.first);
+  const Ints size = bits_as<Ints>(centers.last - centers.first);
+  Ints columns = (size << 16) >> 16;
+  Ints rows = size >> 16;
+  alignas(64) std::int32_t offsets[kLanes];
+  store(offsets, dot(centers.first, both(1, stride)));
+  const Ints unused = lane_numbers() >= used;
+  const Ints large = ~unused & ((columns >= kSmallSide) | (rows >= kSmallSide));
+  columns |= unused | large;  // -1: nothing to walk
+  unsigned larges = sign_bits(large);
+  const int most_columns = greatest_lane(columns);
+  const int most_rows = greatest_lane(columns < 0 ? columns : rows);
+  if (most_columns >= 0) {
+    cover_small(edges, columns, rows, offsets, most_columns, most_rows, origin, stride, rank);
+  }
+  for (; larges != 0; larges &= larges - 1) {
+    const int lane = __builtin_ctz(larges);
+    const Ints all_columns = (size << 16) >> 16;
+    cover_large(edges, lane, all_columns[lane], rows[lane], origin + offsets[lane], stride, rank);
+  }
 }
 
 template <class Rank>
 void draw_triangles(const Kernel<Rank>& kernel, const ClusterDraw<Rank>& draw,
                     const Cluster& cluster, const PixelVertices& vertices) {
   const Clip clip = clip_of(kernel, vertices);
-  Rank* origin = kernel.target.pixels +
-                 static_cast<std::ptrdiff_t>(vertices.origin_y) * kernel.target.width +
+  const int stride = kernel.target.width;
+  Rank* origin = kernel.target.pixels + static_cast<std::ptrdiff_t>(vertices.origin_y) * stride +
                  vertices.origin_x;
-  const std::uint8_t* corners = draw.corners + cluster.first_corner;
+  const std::uint8_t* first = draw.corners + cluster.first_corner;
   const int count = cluster.triangles;
   // Front faces are counter-clockwise, which has a negative area where y points down.
   const int second = draw.faces == Faces::Front ? 2 * count : count;
-  const int third = 3 * count - second;
-  for (int t = 0; t < count; t += kLanes) {
-    draw_lanes(gather(vertices.xy, corners + t), gather(vertices.xy, corners + second + t),
-               gather(vertices.xy, corners + third + t), draw.faces, clip, origin,
-               kernel.target.width, draw.rank);
+  const CornerArrays corners{first, first + second, first + 3 * count - second};
+  const bool both_faces = draw.faces == Faces::Both;
+  alignas(64) std::uint8_t list[kClusterTriangles + kLanePadding + kLanes];
+  const int listed = list_candidates(vertices, corners, count, both_faces, clip, list);
+  for (int i = 0; i < listed; i += kLanes) {
+    Triangles triangles = gather_listed(vertices.xy, corners, list + i);
+    cover(triangles, listed - i, both_faces, clip, origin, stride, draw.rank);
   }
 }
 

@@ -9,13 +9,15 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <limits>
 #include <numeric>
-#include <optional>
 #include <utility>
 #include <vector>
 
 #include "core/error.h"
+#include "render/cpu/detail_levels.h"
 #include "render/cpu/large_triangles.h"
 #include "render/cpu/rank_picture.h"
 #include "render/projection.h"
@@ -28,9 +30,13 @@ using Clock = std::chrono::steady_clock;
 /// Clusters drawn by one task: some microseconds of work.
 constexpr std::size_t kTaskClusters = 32;
 
+/// Surfaces of fewer triangles are drawn as they are at all distances.
+constexpr std::size_t kLeastTriangles = 2000;
+
 /// Some clusters of a draw of the plan.
 struct Task {
   const ShellDraw* draw = nullptr;
+  const MeshClusters* mesh = nullptr;
   std::size_t first = 0;
   std::size_t count = 0;
 };
@@ -50,6 +56,19 @@ ClusterProjection projection_of(const Camera& camera, const glm::dvec3& center_m
   projection.near_mm = static_cast<float>(near_plane_mm(camera));
   projection.view_from = camera.perspective ? eye_mm(camera) - center_mm : camera.forward;
   return projection;
+}
+
+/// Length of a millimetre in the picture where the box is nearest to the eye.
+double most_pixels_per_mm(const Camera& camera, const glm::dvec3& center_mm, const Box& box) {
+  const double pixels = 0.5 * std::min(camera.size.x, camera.size.y) / camera.half_extent;
+  if (!camera.perspective) return pixels;
+  const glm::dvec3 middle = 0.5 * (box.lo + box.hi) + center_mm;
+  const glm::dvec3 reach = 0.5 * (box.hi - box.lo) * glm::abs(camera.forward);
+  const double nearest =
+      glm::dot(camera.forward, middle - eye_mm(camera)) - (reach.x + reach.y + reach.z);
+  // Off the middle of the picture what moves along the ray moves sideways too; a half extent of 1
+  // is a picture of 90 degrees.
+  return pixels / std::max(nearest, near_plane_mm(camera)) * (1.0 + camera.half_extent);
 }
 
 void check_shells(const ShellSet& set, const SceneFacts& facts,
@@ -78,9 +97,12 @@ class CpuRenderer::Drawing {
 
   void upload(const ShellSet& set, const SceneFacts& facts, std::span<const std::uint32_t> shells) {
     check_shells(set, facts, shells);
-    shells_.assign(set.shells.size(), std::nullopt);
+    shells_.assign(set.shells.size(), {});
     tbb::parallel_for(std::size_t{0}, shells.size(), [&](std::size_t i) {
-      shells_[shells[i]] = cluster_mesh(set.shells[shells[i]].surface);
+      const bool all = options_.detail_px <= 0.0;
+      shells_[shells[i]] =
+          detail_levels(set.shells[shells[i]].surface,
+                        all ? std::numeric_limits<std::size_t>::max() : kLeastTriangles);
     });
     scene_ = facts;
   }
@@ -106,16 +128,17 @@ class CpuRenderer::Drawing {
   const CpuFrameStats& frame() const { return frame_; }
 
   std::size_t bytes() const {
-    return std::accumulate(shells_.begin(), shells_.end(), std::size_t{0},
-                           [](std::size_t sum, const std::optional<MeshClusters>& shell) {
-                             return sum + (shell ? shell->bytes() : 0);
-                           });
+    std::size_t sum = 0;
+    for (const std::vector<DetailLevel>& levels : shells_) {
+      for (const DetailLevel& level : levels) sum += level.mesh.bytes();
+    }
+    return sum;
   }
 
  private:
   void check(const Plan& plan) const {
     for (const std::uint32_t shell : shells_drawn(plan)) {
-      if (shell < shells_.size() && shells_[shell]) continue;
+      if (shell < shells_.size() && !shells_[shell].empty()) continue;
       throw Error(
           ErrorCode::BadArgument,
           fmt::format("shell {}: found in the plan, expected it uploaded before", shell + 1));
@@ -128,14 +151,26 @@ class CpuRenderer::Drawing {
     }
   }
 
-  std::vector<Task> tasks_of(const Plan& plan) {
+  /// The coarsest level of detail that is as good as asked for.
+  const MeshClusters& mesh_for(std::uint32_t shell, const Camera& camera) const {
+    const std::vector<DetailLevel>& levels = shells_[shell];
+    const double pixels = most_pixels_per_mm(camera, scene_.center_mm, scene_.shells[shell].bounds);
+    std::size_t chosen = 0;
+    for (std::size_t i = 1; i < levels.size(); ++i) {
+      if (levels[i].error_mm * pixels <= options_.detail_px) chosen = i;
+    }
+    return levels[chosen].mesh;
+  }
+
+  std::vector<Task> tasks_of(const Plan& plan, const Camera& camera) {
     std::vector<Task> tasks;
     for (const Pass& pass : plan.passes) {
       for (const ShellDraw& draw : pass.draws) {
-        const std::size_t clusters = shells_[draw.shell]->clusters.size();
+        const MeshClusters& mesh = mesh_for(draw.shell, camera);
+        const std::size_t clusters = mesh.clusters.size();
         frame_.clusters += clusters;
         for (std::size_t first = 0; first < clusters; first += kTaskClusters) {
-          tasks.push_back({&draw, first, std::min(kTaskClusters, clusters - first)});
+          tasks.push_back({&draw, &mesh, first, std::min(kTaskClusters, clusters - first)});
         }
       }
     }
@@ -146,7 +181,7 @@ class CpuRenderer::Drawing {
   void draw_tile(const Camera& camera, const Plan& plan, const PixelRect& tile,
                  RankPicture<Rank>& picture, Image& image) {
     const ClusterProjection projection = projection_of(camera, scene_.center_mm, tile);
-    const std::vector<Task> tasks = tasks_of(plan);
+    const std::vector<Task> tasks = tasks_of(plan, camera);
     const double ranks = static_cast<double>(plan.emission_of_rank.size() - 1);
     std::atomic<std::size_t> triangles = 0;
     picture.begin({tile.width, tile.height});
@@ -166,7 +201,7 @@ class CpuRenderer::Drawing {
   template <class Rank>
   std::size_t draw_task(const Task& task, Rank rank, const ClusterProjection& projection,
                         const RankTarget<Rank>& target) const {
-    const MeshClusters& mesh = *shells_[task.draw->shell];
+    const MeshClusters& mesh = *task.mesh;
     ClusterDraw<Rank> draw{mesh.clusters.data() + task.first,
                            task.count,
                            mesh.positions.data(),
@@ -186,7 +221,7 @@ class CpuRenderer::Drawing {
   CpuOptions options_;
   Capabilities capabilities_;
   SceneFacts scene_;
-  std::vector<std::optional<MeshClusters>> shells_;  // one a shell of the set
+  std::vector<std::vector<DetailLevel>> shells_;  // one a shell of the set; empty: not uploaded
   RankPicture<std::uint8_t> bytes_;
   RankPicture<std::uint16_t> words_;
   CpuFrameStats frame_;

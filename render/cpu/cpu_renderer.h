@@ -15,12 +15,16 @@
 namespace nacre {
 
 struct CpuOptions {
+  /// Surfaces may be drawn with fewer triangles where no point of them moves by more than this many
+  /// pixels; the outlines of shells then lie at most as far from where they belong. 0: all
+  /// triangles, and no time spent on preparing others.
+  double detail_px = 0.0;
   InstructionSet instructions = best_instruction_set();
 };
 
 /// What the last picture cost.
 struct CpuFrameStats {
-  std::size_t clusters = 0;   ///< of the shells drawn
+  std::size_t clusters = 0;  ///< of the shells drawn, at the level of detail that they are drawn in
   std::size_t triangles = 0;  ///< of clusters that were not rejected as a whole
   double seconds = 0.0;       ///< from the first command to the picture in memory
 };

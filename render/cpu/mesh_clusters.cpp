@@ -5,7 +5,6 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <span>
 
 namespace nacre {
 namespace {
@@ -68,17 +67,24 @@ void sort_by_key(std::vector<KeyedTriangle>& keyed) {
   }
 }
 
+/// 128 triangles span 8 edges of a flat surface.
+constexpr double kReachEdges = 24.0;
+
 /// Gathers triangles until a cluster is full.
 class ClusterBuilder {
  public:
   ClusterBuilder(const TriangleMesh& mesh, MeshClusters& result)
-      : mesh_(mesh), result_(result), local_(mesh.positions.size(), kNone) {}
+      : mesh_(mesh),
+        result_(result),
+        local_(mesh.positions.size(), kNone),
+        reach_mm_(static_cast<float>(kReachEdges * mean_edge_mm(mesh))) {}
 
   void add(std::uint32_t triangle) {
     const glm::uvec3& corners = mesh_.triangles[triangle];
     std::size_t fresh = 0;
     for (int i = 0; i < 3; ++i) fresh += local_[corners[i]] == kNone ? 1 : 0;
-    if (triangles_.size() == kClusterTriangles || vertices_.size() + fresh > kClusterVertices) {
+    if (triangles_.size() == kClusterTriangles || vertices_.size() + fresh > kClusterVertices ||
+        is_far(corners)) {
       finish();
     }
     std::array<std::uint8_t, 3> local{};
@@ -109,6 +115,15 @@ class ClusterBuilder {
  private:
   static constexpr std::uint8_t kNone = 255;
   static_assert(kClusterVertices < kNone);
+
+  /// Whether a triangle lies away from the cluster: more than the cluster would span if it were
+  /// whole.
+  bool is_far(const glm::uvec3& corners) const {
+    if (triangles_.empty()) return false;
+    const glm::vec3 away =
+        glm::abs(mesh_.positions[corners.x] - mesh_.positions[vertices_.front()]);
+    return std::max({away.x, away.y, away.z}) > reach_mm_;
+  }
 
   const glm::vec3& position(std::uint8_t local) const { return mesh_.positions[vertices_[local]]; }
 
@@ -173,6 +188,7 @@ class ClusterBuilder {
   const TriangleMesh& mesh_;
   MeshClusters& result_;
   std::vector<std::uint8_t> local_;  // of each vertex in the cluster being filled
+  float reach_mm_;
   std::vector<std::uint32_t> vertices_;
   std::vector<std::array<std::uint8_t, 3>> triangles_;
 };
@@ -181,6 +197,14 @@ class ClusterBuilder {
 
 std::size_t MeshClusters::bytes() const noexcept {
   return clusters.size() * sizeof(Cluster) + positions.size() * sizeof(float) + corners.size();
+}
+
+double mean_edge_mm(const TriangleMesh& mesh) {
+  double sum = 0.0;
+  for (const glm::uvec3& t : mesh.triangles) {
+    sum += glm::distance(mesh.positions[t.x], mesh.positions[t.y]);
+  }
+  return sum / static_cast<double>(mesh.triangles.size());
 }
 
 MeshClusters cluster_mesh(const TriangleMesh& mesh) {

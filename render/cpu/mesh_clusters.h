@@ -43,6 +43,10 @@ struct MeshClusters {
   std::size_t bytes() const noexcept;
 };
 
+/// Mean length of one edge of each triangle.
+/// @pre  the mesh has triangles
+double mean_edge_mm(const TriangleMesh& mesh);
+
 /// Cuts a mesh into clusters along the Morton curve through its triangles' centres (Morton 1966,
 /// "A computer oriented geodetic data base"), so that they are compact however the mesh is ordered.
 ///
