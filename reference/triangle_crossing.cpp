@@ -44,7 +44,7 @@ int detail::sign_of_tied_difference(double a, double b, double c, double d) noex
   return sign_of(std::fma(ab.m0, ab.m1, -high_ab) - std::fma(cd.m0, cd.m1, -high_cd));
 }
 
-RayFrame::RayFrame(const Ray& ray) : origin_(ray.origin_mm) {
+RayCoordinates::RayCoordinates(const Ray& ray) : origin_(ray.origin_mm) {
   const glm::dvec3& d = ray.direction;
   for (const int axis : {0, 1, 2}) {
     if (std::abs(d[axis]) > std::abs(d[z_])) z_ = axis;

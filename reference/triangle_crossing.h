@@ -17,10 +17,10 @@ namespace nacre {
 /// becomes z, and x, y are sheared by the ray's slopes, so that the ray is x = y = 0 and a point's
 /// z is its distance t along the ray. What a point becomes depends on nothing but the point and the
 /// ray: triangles that share a vertex agree on it to the last bit.
-class RayFrame {
+class RayCoordinates {
  public:
   /// @param ray  direction not zero
-  explicit RayFrame(const Ray& ray);
+  explicit RayCoordinates(const Ray& ray);
 
   /// (x, y, t) of a point in LPS mm; x = y = 0 on the ray, t in mm from its origin.
   glm::dvec3 operator()(const glm::dvec3& p_mm) const {

@@ -207,7 +207,7 @@ std::array<glm::dvec3, 3> TriangleRays::corners(std::uint32_t triangle) const {
 template <class Visit>
 void TriangleRays::traverse(const Ray& ray, RayInterval& interval, Visit&& visit) const {
   if (nodes_.empty()) return;
-  const RayFrame frame(ray);
+  const RayCoordinates frame(ray);
   const LineBoxTest line(ray, reach_mm_);
   // A crossing's t lies between its corners', and those between the planes of the box that hold
   // them: culling by these planes alone can lose nothing to rounding.

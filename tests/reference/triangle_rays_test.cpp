@@ -74,7 +74,7 @@ class Dice {
 /// Every triangle, one by one.
 std::vector<TriangleHit> brute_force(const TriangleMesh& mesh, const Ray& ray,
                                      const RayInterval& interval) {
-  const RayFrame frame(ray);
+  const RayCoordinates frame(ray);
   std::vector<TriangleHit> hits;
   for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
     const glm::uvec3& t = mesh.triangles[i];
