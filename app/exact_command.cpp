@@ -60,7 +60,7 @@ void run_exact(const ExactFlags& flags) {
   const ThreadLimit limit(flags.common);
   check_output(flags.picture, flags.camera);
   CameraOptions camera = camera_options(flags.camera);
-  const ExactPictureOptions options{picture_mode(flags.picture), slab(flags.camera)};
+  const ExactPictureOptions options{.mode = picture_mode(flags.picture), .slab = slab(flags.camera)};
 
   Timing timing;
   Stopwatch watch;

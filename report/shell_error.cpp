@@ -54,11 +54,6 @@ void snap_all(ShellSet& set) {
   });
 }
 
-// INTERIM until the ideal layers are merged.
-struct ShownLevel {
-  double value;
-  double representative;
-};
 std::vector<ShownLevel> shown_levels(const ShellSet& set, std::span<const std::uint32_t> hidden) {
   std::vector<ShownLevel> levels;
   for (std::uint32_t k = 0; k < set.shells.size(); ++k) {
@@ -66,18 +61,6 @@ std::vector<ShownLevel> shown_levels(const ShellSet& set, std::span<const std::u
     levels.push_back({set.shells[k].value, set.shells[k].representative});
   }
   return levels;
-}
-
-Image ideal_of_max(const Image& exact, const EmissionMap& map,
-                   const std::vector<ShownLevel>& levels) {
-  Image image = exact;
-  for (float& v : image.pixels) {
-    float r = 0;
-    for (const auto& l : levels)
-      if (map(l.value) <= static_cast<double>(v)) r = static_cast<float>(l.representative);
-    v = r;
-  }
-  return image;
 }
 
 }  // namespace
@@ -95,12 +78,11 @@ ShellErrorChain shell_error_chain(Volume volume, ShellSet set, const Camera& cam
 
   ShellErrorChain chain;
   const ExactWalk walk(volume, EmissionMap::piecewise_linear(set.emission));
-  const ExactPictureOptions exact{options.mode, options.slab};
+  const ExactPictureOptions exact{options.mode, options.cue, options.slab,
+                                  shown_levels(set, options.hidden)};
   chain.truth = exact_picture(walk, camera, exact, progress);
   if (options.mode == PictureMode::Max || options.mode == PictureMode::Sum) {
-    chain.stages.push_back(
-        {"levels", ideal_of_max(chain.truth, EmissionMap::piecewise_linear(set.emission),
-                                shown_levels(set, options.hidden))});
+    chain.stages.push_back({"levels", ideal_picture(walk, camera, exact, progress)});
   }
   extract_anew(volume, set, progress);
   chain.stages.push_back({"contouring", picture_of_set()});
