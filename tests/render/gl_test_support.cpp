@@ -57,7 +57,13 @@ void GlTest::SetUp() {
 void GlTest::TearDownTestSuite() { shared_renderer.reset(); }
 
 Image GlTest::draw(const ShellSet& set, const Camera& camera, const RenderOptions& options) {
-  shared_renderer->upload(set);
+  return draw_with({}, set, camera, options).volume;
+}
+
+Picture GlTest::draw_with(std::span<const Tool> tools, const ShellSet& set, const Camera& camera,
+                          const RenderOptions& options) {
+  shared_renderer->upload(set, {.normals = options.mode == PictureMode::Iso});
+  shared_renderer->upload_tools(tools);
   return shared_renderer->render(camera, options);
 }
 

@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <span>
 
 #include "core/camera.h"
 #include "core/image.h"
 #include "core/shell_set.h"
+#include "core/tool.h"
 #include "render/gl/gl_renderer.h"
 
 namespace nacre::testing {
@@ -25,8 +27,12 @@ class GlTest : public ::testing::Test {
   void SetUp() override;
   static void TearDownTestSuite();
 
-  /// Uploads the set and draws it.
+  /// Uploads the set and draws the volume.
   static Image draw(const ShellSet& set, const Camera& camera, const RenderOptions& options = {});
+
+  /// The same with tools: all that is seen.
+  static Picture draw_with(std::span<const Tool> tools, const ShellSet& set, const Camera& camera,
+                           const RenderOptions& options = {});
 
   static GlRenderer& renderer() { return *shared_renderer; }
 
