@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <glm/vec2.hpp>
 #include <memory>
 #include <span>
 
@@ -52,6 +53,9 @@ struct RayCheck {
 /// point within 1/32 of a pixel (rasterisers round corners to 1/256).
 void expect_matches_rays(const ShellSet& set, const Camera& camera, const Image& image,
                          const RayCheck& check = {});
+
+/// Offsets from a pixel's centre by up to 1/32 pixel, none first.
+std::span<const glm::dvec2> offsets_nearby();
 
 /// Number of pixels in which two pictures of one size differ.
 std::size_t pixels_that_differ(const Image& a, const Image& b);
