@@ -1,7 +1,10 @@
 // Every mode, with cues, slabs and tools, against rays cut by the definitions.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdlib>
 #include <functional>
 #include <glm/gtc/matrix_transform.hpp>
 #include <vector>
@@ -69,12 +72,16 @@ const std::array<Slab, 4> kSlabs{{{}, {.near_mm = -12.5}, {.far_mm = 11.5}, {-21
 
 using Pixel = std::function<double(double, double)>;
 
-/// Fewer pixels where each costs more: builds with sanitizers.
+/// One pixel in so many is checked; all of them with NACRE_THOROUGH=1. Fewer where each costs more:
+/// builds with sanitizers.
+std::size_t every() {
 #ifdef NDEBUG
-constexpr int kEvery = 1;
+  constexpr std::size_t usual = 7;
 #else
-constexpr int kEvery = 5;
+  constexpr std::size_t usual = 53;
 #endif
+  return std::getenv("NACRE_THOROUGH") != nullptr ? 1 : usual;
+}
 
 /// Whether a value is what a point near the pixel's centre shows: one of nine within 1/32 of a pixel
 /// does, or they show a little less and a little more (where surfaces are steep).
@@ -96,7 +103,7 @@ void expect_pixels(const Image& image, const Pixel& truth, double tolerance,
   std::size_t checked = 0;
   std::size_t moved = 0;
   std::size_t wrong = 0;
-  for (std::size_t i = 0; i < image.pixels.size(); i += kEvery, ++checked) {
+  for (std::size_t i = 0; i < image.pixels.size(); i += every(), ++checked) {
     const int x = static_cast<int>(i) % image.width;
     const int y = static_cast<int>(i) / image.width;
     const double center = truth(x + 0.5, y + 0.5);
@@ -109,7 +116,7 @@ void expect_pixels(const Image& image, const Pixel& truth, double tolerance,
     }
   }
   EXPECT_EQ(wrong, 0U);
-  EXPECT_LE(static_cast<double>(moved), 1.0 + off_center * static_cast<double>(checked));
+  EXPECT_LE(static_cast<double>(moved), 3.0 + off_center * static_cast<double>(checked));
 }
 
 class GlModes : public GlTest {
@@ -138,9 +145,9 @@ class GlModes : public GlTest {
   }
 };
 
-// Depths are linear over triangles that corners' rounding to 1/256 pixel moves sideways.
-constexpr double kMaxTolerance = 2e-4;   // of emissions up to 1
-constexpr double kSumTolerance = 0.02;   // of 30 mm
+// Corners are rounded to 1/256 pixel, and the steepest triangles here fall by 50 mm a pixel.
+constexpr double kMaxTolerance = 4e-4;  // of emissions up to 1
+constexpr double kSumTolerance = 0.02;  // of up to 80 mm
 
 TEST_F(GlModes, MaxIsWhatRaysShow) {
   expect_rays({}, &ShellRays::maximum, {}, kMaxTolerance);
@@ -170,6 +177,91 @@ TEST_F(GlModes, CountIsWhatRaysShow) {
 
 TEST_F(GlModes, CountIsWhatRaysShowBeforeTools) {
   expect_rays({.mode = PictureMode::Count}, &ShellRays::count, bar_and_flag(), 1e-5);
+}
+
+// A ball's smooth normals are those of the sphere through its vertices, nearly.
+TEST_F(GlModes, LitBallsShowTheHeadlight) {
+  const ShellSet set = nested_balls(2, 40.0, 20, kCenter);
+  for (const Eye& eye : eyes()) {
+    const Camera camera = make_camera(eye.options, kSphere);
+    for (const DepthCue& cue : kCues) {
+      for (const Slab& slab : kSlabs) {
+        SCOPED_TRACE(::testing::Message() << eye.name << ", a = " << cue.a << ", slab "
+                                          << slab.near_mm << " to " << slab.far_mm);
+        const RenderOptions options{.mode = PictureMode::Iso, .cue = cue, .slab = slab};
+        const Image image = draw(set, camera, options);
+        const ShellRays rays(set, {}, camera, cue, slab);
+        const auto lit = [&](double x, double y) { return rays.lit_ball(x, y); };
+        expect_pixels(image, lit, 0.03);
+      }
+    }
+  }
+}
+
+TEST_F(GlModes, LitShellsShowBeforeToolsOnly) {
+  const ShellSet set = nested_balls(2, 40.0, 20, kCenter);
+  const std::vector<Tool> tools = bar_and_flag();
+  for (const Eye& eye : eyes()) {
+    SCOPED_TRACE(eye.name);
+    const Camera camera = make_camera(eye.options, kSphere);
+    const RenderOptions options{.mode = PictureMode::Iso, .cue = kCues[1]};
+    const Image image = draw_with(tools, set, camera, options).volume;
+    const ShellRays rays(set, tools, camera, kCues[1]);
+    expect_pixels(image, [&](double x, double y) { return rays.lit_ball(x, y); }, 0.03);
+  }
+}
+
+// Tools are drawn as they are: slabs do not cut them, and the near plane does.
+TEST_F(GlModes, TheToolLayerShowsTheNearestTool) {
+  const ShellSet set = nest();
+  const std::vector<Tool> tools = bar_and_flag();
+  for (const Eye& eye : eyes()) {
+    const Camera camera = make_camera(eye.options, kSphere);
+    for (const DepthCue& cue : kCues) {
+      SCOPED_TRACE(::testing::Message() << eye.name << ", a = " << cue.a);
+      const RenderOptions options{.cue = cue, .slab = {-5.0, 1.0}};
+      const Picture picture = draw_with(tools, set, camera, options);
+      ASSERT_TRUE(picture.tools.has_value());
+      const ShellRays rays(set, tools, camera, cue);
+      for (int channel = 0; channel < 3; ++channel) {
+        Image image = make_image(camera.size.x, camera.size.y);
+        for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+          const bool covered = picture.tools->covered[i] != 0;
+          image.pixels[i] = covered ? picture.tools->colors[i][channel] : -1.0F;
+        }
+        const auto shown = [&](double x, double y) {
+          const std::optional<glm::vec3> color = rays.tool_color(x, y);
+          return color ? static_cast<double>((*color)[channel]) : -1.0;
+        };
+        expect_pixels(image, shown, 2e-3, 0.05);
+      }
+    }
+  }
+}
+
+TEST_F(GlModes, ToolsOutsideThePictureLeaveNoLayer) {
+  const Camera camera = make_camera({.size = {20, 20}}, kSphere);
+  const std::vector<Tool> tools{
+      tool_of(block_mesh({-5, -5, -5}, {5, 5, 5}), kCenter + glm::dvec3(500, 0, 0))};
+  const Picture picture = draw_with(tools, nest(), camera);
+  EXPECT_FALSE(picture.tools.has_value());
+  EXPECT_EQ(pixels_that_differ(picture.volume, draw(nest(), camera)), 0U);
+}
+
+TEST_F(GlModes, ToolsShowWithoutAnyVolume) {
+  const std::vector<Tool> tools{tool_of(block_mesh({-5, -5, -5}, {5, 5, 5}), kCenter)};
+  for (const PictureMode mode :
+       {PictureMode::Max, PictureMode::Sum, PictureMode::Count, PictureMode::Iso}) {
+    const Camera camera = make_camera({.size = {20, 20}}, kSphere);
+    ShellSet none;
+    none.center_mm = kCenter;
+    const Picture picture = draw_with(tools, none, camera, {.mode = mode});
+    ASSERT_TRUE(picture.tools.has_value());
+    EXPECT_EQ(picture.tools->covered[10 * 20 + 10], 1);
+    // The block's face is seen straight on.
+    EXPECT_NEAR(picture.tools->colors[10 * 20 + 10].y, 0.7F, 1e-6F);
+    EXPECT_EQ(*std::max_element(picture.volume.pixels.begin(), picture.volume.pixels.end()), 0.0F);
+  }
 }
 
 }  // namespace
