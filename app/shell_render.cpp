@@ -141,7 +141,7 @@ void draw_views(GlRenderer& renderer, const ExactFlags& flags, const DrawFlags& 
   Stopwatch watch;
   Image image;
   for (std::size_t view = 0; view < plans.size(); ++view) {
-    image = renderer.render(views.cameras[view], plans[view]);
+    image = renderer.render(views.cameras[view], plans[view]).volume;
     timing.frames.push_back(renderer.last_frame().seconds);
     if (flags.picture.output.empty()) continue;
     watch.lap();
