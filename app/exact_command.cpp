@@ -60,7 +60,8 @@ void run_exact(const ExactFlags& flags) {
   const ThreadLimit limit(flags.common);
   check_output(flags.picture, flags.camera);
   CameraOptions camera = camera_options(flags.camera);
-  const ExactPictureOptions options{.mode = picture_mode(flags.picture), .slab = slab(flags.camera)};
+  const ExactPictureOptions options{.mode = picture_mode(flags.picture),
+                                    .slab = slab(flags.camera)};
 
   Timing timing;
   Stopwatch watch;
@@ -77,7 +78,7 @@ void run_exact(const ExactFlags& flags) {
   for (int view = 0; view < views; ++view) {
     camera.azimuth_rad = start + 2.0 * std::numbers::pi * view / views;
     watch.lap();
-    image = exact_picture(walk, make_camera(camera, sphere), options, reporter.progress());
+    image = exact_picture(walk, make_camera(camera, sphere), options, reporter.progress()).volume;
     timing.frames.push_back(watch.lap());
     if (flags.picture.output.empty()) continue;
     write_picture(image, flags.picture, numbered_name(flags.picture.output, view));
