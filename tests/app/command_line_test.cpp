@@ -246,6 +246,41 @@ TEST_F(ShellCommand, RenderShowsTheExactPictureToHalfALayer) {
   EXPECT_EQ(nacre("compare shells.tif exact.tif --max-rmse 0.06").status, 0);
 }
 
+TEST_F(ShellCommand, ErrorsAreSplitIntoCausesThatAddUp) {
+  require_backend();
+  const std::string explain = "compare --explain-error ball.glb --volume ball.nii --size 64x64 ";
+  const CommandResult drawn = nacre(explain + "--azimuth 30 --json -");
+  ASSERT_EQ(drawn.status, 0) << drawn.errors;
+  const json figures = json::parse(drawn.output);
+  const json& split = figures["error_split"];
+  double shares = 0.0;
+  for (const json& cause : split["causes"]) shares += cause["share"].get<double>();
+  EXPECT_NEAR(shares, 1.0, 1e-12);
+  ASSERT_EQ(split["causes"].size(), 5u);
+  EXPECT_EQ(split["causes"][0]["cause"], "levels");
+  EXPECT_EQ(split["causes"][3]["rmse"], 0.0) << "nothing was simplified";
+  EXPECT_NEAR(split["total"]["rmse"].get<double>(), figures["all"]["rmse"].get<double>(), 1e-12);
+  EXPECT_NE(drawn.errors.find("dominates"), std::string::npos);
+
+  // A picture that was drawn before has the same causes.
+  ASSERT_EQ(nacre("render ball.glb --size 64x64 --azimuth 30 -o shells.tif").status, 0);
+  const CommandResult given = nacre(explain + "--azimuth 30 --json - shells.tif");
+  ASSERT_EQ(given.status, 0) << given.errors;
+  EXPECT_EQ(json::parse(given.output)["error_split"], split);
+}
+
+TEST_F(ShellCommand, AnErrorIsNotExplainedByAnotherVolumeOrPicture) {
+  ASSERT_EQ(nacre("phantom torus --size 20,18,16 -o other.nii").status, 0);
+  const std::string explain = "compare --explain-error ball.glb ";
+  expect_refusal(explain + "--volume other.nii", 2, "the shell set was made from");
+  expect_refusal(explain, 2, "--volume");
+  expect_refusal(explain + "--volume ball.nii a.tif b.tif", 2, "b.tif");
+  expect_refusal(explain + "--volume ball.nii --turntable 4", 2, "--turntable");
+  expect_refusal("compare a.tif b.tif --azimuth 30", 2, "--explain-error");
+  ASSERT_EQ(nacre("reference ball.nii --size 16x16 -o small.tif").status, 0);
+  expect_refusal(explain + "--volume ball.nii small.tif", 2, "16 x 16");
+}
+
 TEST_F(ShellCommand, HiddenShellsAreLeftOutAndNotDrawn) {
   require_backend();
   const CommandResult all = nacre("render ball.glb --size 32x32 -o a.tif --json - --explain");
