@@ -15,9 +15,11 @@ namespace {
 /// Least slope of a cued remap that keeps a tool and a shell behind it apart.
 constexpr double kLeastSlope = 0x1p-12;
 
-/// What comparing a fragment with the tool layer costs, in triangles drawn without, a triangle.
-/// Measured on llvmpipe, see docs/decisions/012-both-ends-of-a-ray.md.
-constexpr double kComparedTriangle = 0.5;
+/// What comparing a shell's fragments with the tool layer costs, and what drawing the tools before a
+/// shell costs besides their triangles (their pixels), both in triangles of a shell: measured on
+/// llvmpipe, docs/decisions/012-tools-by-texture.md.
+constexpr double kComparedTriangle = 0.15;
+constexpr double kToolPixels = 5000.0;
 
 /// Which way along a ray beta rises.
 enum class Trend { TowardsTheEye, None, AwayFromTheEye };
@@ -93,7 +95,8 @@ bool passes_are_cheaper(const Planning& planning, std::size_t tool_triangles) {
     shells += 1.0;
     compared += static_cast<double>(shell.triangles);
   }
-  return shells * static_cast<double>(tool_triangles) < kComparedTriangle * compared;
+  return shells * (static_cast<double>(tool_triangles) + kToolPixels) <
+         kComparedTriangle * compared;
 }
 
 ToolCut tool_cut(Planning& planning, std::size_t tool_triangles) {
