@@ -71,6 +71,8 @@ Views views_of(const ExactFlags& flags, const DrawFlags& draw, const VolumeFacts
   Views views;
   views.options.mode = picture_mode(flags.picture);
   views.options.slab = slab(flags.camera);
+  views.options.cue = depth_cue(flags.scene);
+  refuse_tools(flags.scene, "the shell renderer");
   views.options.hidden = hidden_shells(draw, shells);
   const auto depth = depth_format(draw.depth_buffer);
   if (!depth) {
