@@ -59,6 +59,8 @@ void run_exact(const ExactFlags& flags) {
   Reporter reporter(flags.common);
   const ThreadLimit limit(flags.common);
   check_output(flags.picture, flags.camera);
+  refuse_cue(flags.scene, "the exact walk");
+  refuse_tools(flags.scene, "the exact walk");
   CameraOptions camera = camera_options(flags.camera);
   const ExactPictureOptions options{.mode = picture_mode(flags.picture),
                                     .slab = slab(flags.camera)};
@@ -103,6 +105,7 @@ void add_reference_verb(CLI::App& app, int& /*status*/) {
 
 void add_exact_flags(CLI::App& verb, ExactFlags& flags) {
   add_picture_flags(verb, flags.picture);
+  add_scene_flags(verb, flags.scene);
   add_camera_flags(verb, flags.camera);
   add_volume_reading_flags(verb, flags.volume);
   add_emission_flags(verb, flags.volume);

@@ -71,6 +71,8 @@ Views views_of(const ExactFlags& flags, const DrawFlags& draw, const VolumeFacts
   Views views;
   views.options.mode = picture_mode(flags.picture);
   views.options.slab = slab(flags.camera);
+  views.options.cue = depth_cue(flags.scene);
+  refuse_tools(flags.scene, "the shell renderer");
   views.options.hidden = hidden_shells(draw, shells);
   const auto depth = depth_format(draw.depth_buffer);
   if (!depth) {
@@ -139,7 +141,7 @@ void draw_views(GlRenderer& renderer, const ExactFlags& flags, const DrawFlags& 
   Stopwatch watch;
   Image image;
   for (std::size_t view = 0; view < plans.size(); ++view) {
-    image = renderer.render(views.cameras[view], plans[view]);
+    image = renderer.render(views.cameras[view], plans[view]).volume;
     timing.frames.push_back(renderer.last_frame().seconds);
     if (flags.picture.output.empty()) continue;
     watch.lap();
