@@ -38,9 +38,9 @@ FlatMesh flat_mesh(std::span<const glm::vec3> positions, std::span<const glm::uv
     } else {
       owned[triangle.z] = true;
     }
-    mesh.normals[triangle.z] = normal_of(glm::dvec3(mesh.positions[triangle.x]),
-                                         glm::dvec3(mesh.positions[triangle.y]),
-                                         glm::dvec3(mesh.positions[triangle.z]));
+    mesh.normals[triangle.z] =
+        normal_of(glm::dvec3(mesh.positions[triangle.x]), glm::dvec3(mesh.positions[triangle.y]),
+                  glm::dvec3(mesh.positions[triangle.z]));
     mesh.triangles.push_back(triangle);
   }
   return mesh;

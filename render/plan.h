@@ -66,11 +66,11 @@ enum class PassKind {
 /// A sweep over shells or tools that share their target and state.
 struct Pass {
   PassKind kind = PassKind::MaxDepth;
-  std::vector<ShellDraw> draws = {};            ///< in drawing order
-  std::vector<std::uint32_t> tools = {};        ///< indices of the tools drawn
-  std::size_t tool_triangles = 0;               ///< of those tools, together
-  Interval depths_mm = {};                      ///< view depths of what is drawn (ToolLayer, Lit)
-  std::vector<float> emission_of_count = {};    ///< Start- and EndCounts: [n] for n shells, [0] = 0
+  std::vector<ShellDraw> draws = {};          ///< in drawing order
+  std::vector<std::uint32_t> tools = {};      ///< indices of the tools drawn
+  std::size_t tool_triangles = 0;             ///< of those tools, together
+  Interval depths_mm = {};                    ///< view depths of what is drawn (ToolLayer, Lit)
+  std::vector<float> emission_of_count = {};  ///< Start- and EndCounts: [n] for n shells, [0] = 0
 };
 
 /// Triangles that the pass sends: tools before each shell they are drawn for, and shells.
@@ -87,7 +87,7 @@ struct Plan {
   std::vector<PixelRect> tiles;   ///< the passes are run on each; they cover the picture
   DepthFormat depth = DepthFormat::D32F;
   TargetFormat target = TargetFormat::F32;
-  RaySpan rays;            ///< where rays start and end
+  RaySpan rays;  ///< where rays start and end
   DepthCue cue;
   bool normals = false;    ///< whether the shells have to be uploaded with normals
   double depth_scale = 0;  ///< brightness of depth 1 in a cued maximum; 0 where depths are ranks
@@ -114,7 +114,8 @@ std::vector<std::uint32_t> shells_drawn(const Plan& plan);
 /// Left out, each only where the picture stays what it is (`PlanRules` has a switch for each):
 ///
 /// - shells that are hidden (their layer shows the previous shown shell, which surrounds it), have
-///   no triangles, add nothing, lie outside the view or outside the slab; lit shells within another;
+///   no triangles, add nothing, lie outside the view or outside the slab; lit shells within
+///   another;
 /// - one wall of each shell. Max, beta rising towards the eye: fronts are nearer than backs, and a
 ///   ray that starts inside is brightest at its start. Falling: backs, and the end. Flat: each ray
 ///   that meets a shell meets its front, unless it starts inside; it meets its back, unless it ends

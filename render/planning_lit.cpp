@@ -14,13 +14,12 @@ bool within(const Box& inner, const Box& outer) {
 /// A shell that no ray starts in hides those inside it.
 void leave_out_enclosed(Planning& planning) {
   std::vector<ShownShell>& shells = planning.shells;
-  const auto outermost = std::find_if(shells.begin(), shells.end(), [](const ShownShell& shell) {
-    return shell.triangles > 0;
-  });
+  const auto outermost = std::find_if(shells.begin(), shells.end(),
+                                      [](const ShownShell& shell) { return shell.triangles > 0; });
   if (outermost == shells.end() || outermost->starts_inside) return;
   const Box& bounds = planning.scene.shells[outermost->index].bounds;
-  const auto gone_from = std::stable_partition(
-      outermost + 1, shells.end(), [&](const ShownShell& shell) {
+  const auto gone_from =
+      std::stable_partition(outermost + 1, shells.end(), [&](const ShownShell& shell) {
         return shell.triangles == 0 || !within(planning.scene.shells[shell.index].bounds, bounds);
       });
   const std::vector<ShownShell> gone(gone_from, shells.end());

@@ -15,9 +15,11 @@ namespace {
 /// Least slope of a cued remap that keeps a tool and a shell behind it apart.
 constexpr double kLeastSlope = 0x1p-12;
 
-/// What comparing a fragment with the tool layer costs, in triangles drawn without, a triangle.
-/// Measured on llvmpipe, see docs/decisions/012-both-ends-of-a-ray.md.
-constexpr double kComparedTriangle = 0.5;
+/// What comparing a shell's fragments with the tool layer costs, and what drawing the tools before
+/// a shell costs besides their triangles (their pixels), both in triangles of a shell: measured on
+/// llvmpipe, docs/decisions/012-tools-by-texture.md.
+constexpr double kComparedTriangle = 0.15;
+constexpr double kToolPixels = 5000.0;
 
 /// Which way along a ray beta rises.
 enum class Trend { TowardsTheEye, None, AwayFromTheEye };
@@ -93,7 +95,8 @@ bool passes_are_cheaper(const Planning& planning, std::size_t tool_triangles) {
     shells += 1.0;
     compared += static_cast<double>(shell.triangles);
   }
-  return shells * static_cast<double>(tool_triangles) < kComparedTriangle * compared;
+  return shells * (static_cast<double>(tool_triangles) + kToolPixels) <
+         kComparedTriangle * compared;
 }
 
 ToolCut tool_cut(Planning& planning, std::size_t tool_triangles) {
@@ -109,8 +112,7 @@ ToolCut tool_cut(Planning& planning, std::size_t tool_triangles) {
   }
   // 16 bits, shared among all remaps, leave too few for each.
   const bool exact = obstacle.empty() && planning.options.depth != DepthFormat::D16;
-  return exact && passes_are_cheaper(planning, tool_triangles) ? ToolCut::Passes
-                                                               : ToolCut::Texture;
+  return exact && passes_are_cheaper(planning, tool_triangles) ? ToolCut::Passes : ToolCut::Texture;
 }
 
 /// The largest emission shown where n of the shells, nested, surround a point.
@@ -138,8 +140,8 @@ void plan_start_counts(Planning& planning, Trend trend) {
   bool any_inside = false;
   for (const ShownShell& shell : planning.shells) {
     any_inside |= shell.starts_inside;
-    const bool counts = trend == Trend::TowardsTheEye ||
-                        (trend == Trend::None && shell.ends_inside);
+    const bool counts =
+        trend == Trend::TowardsTheEye || (trend == Trend::None && shell.ends_inside);
     if (all || (counts && shell.starts_inside)) counted.push_back(shell);
   }
   if (!counted.empty()) {
@@ -164,9 +166,9 @@ void plan_end_counts(Planning& planning, Trend trend) {
   if (!counted.empty()) {
     plan_counts(planning, PassKind::EndCounts, counted);
   } else {
-    planning.leave_out("counts at the end of rays",
-                       any_inside ? "rays are as bright where they start or enter"
-                                  : "no ray ends inside a shell");
+    planning.leave_out(
+        "counts at the end of rays",
+        any_inside ? "rays are as bright where they start or enter" : "no ray ends inside a shell");
   }
 }
 
@@ -220,8 +222,8 @@ Pass max_pass(Planning& planning, Trend trend, bool ranked) {
 void plan_max(Planning& planning) {
   const RenderOptions& options = planning.options;
   const Trend trend = trend_of(options.cue);
-  const bool ranked = trend == Trend::None && (options.rules.leave_out_flat_cue ||
-                                               largest_beta(options.cue) == 0.0);
+  const bool ranked = trend == Trend::None &&
+                      (options.rules.leave_out_flat_cue || largest_beta(options.cue) == 0.0);
   if (!planning.shells.empty()) {
     Pass pass = max_pass(planning, trend, ranked);
     planning.plan.depth_scale = ranked ? 0.0 : largest_beta(options.cue);

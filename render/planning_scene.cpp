@@ -116,8 +116,8 @@ std::string describe_tool(const Planning& planning, std::uint32_t tool) {
 Interval depths_of_tools(const Planning& planning) {
   Interval depths{kInfinity, -kInfinity};
   for (const std::uint32_t tool : planning.tools) {
-    const Interval own = view_depths(planning.camera, planning.scene.center_mm,
-                                     planning.scene.tools[tool].bounds);
+    const Interval own =
+        view_depths(planning.camera, planning.scene.center_mm, planning.scene.tools[tool].bounds);
     depths = {std::min(depths.lo, own.lo), std::max(depths.hi, own.hi)};
   }
   if (planning.camera.perspective) {

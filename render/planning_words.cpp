@@ -50,12 +50,12 @@ std::size_t triangles(const Pass& pass) {
 }
 
 std::string describe(const Pass& pass) {
-  const auto behind_tools = std::count_if(
-      pass.draws.begin(), pass.draws.end(),
-      [](const ShellDraw& draw) { return draw.tools == ToolCut::Passes; });
-  const auto compared = std::count_if(
-      pass.draws.begin(), pass.draws.end(),
-      [](const ShellDraw& draw) { return draw.tools == ToolCut::Texture; });
+  const auto behind_tools =
+      std::count_if(pass.draws.begin(), pass.draws.end(),
+                    [](const ShellDraw& draw) { return draw.tools == ToolCut::Passes; });
+  const auto compared =
+      std::count_if(pass.draws.begin(), pass.draws.end(),
+                    [](const ShellDraw& draw) { return draw.tools == ToolCut::Texture; });
   const std::string what = pass.kind == PassKind::ToolLayer ? counted(pass.tools.size(), "tool")
                                                             : counted(pass.draws.size(), "shell");
   return fmt::format(
@@ -90,9 +90,9 @@ void note_faces(Planning& planning, const Pass& pass, std::string_view fronts_su
     if (shells.empty()) continue;
     std::sort(shells.begin(), shells.end());
     const bool fronts = faces == Faces::Front;
-    planning.leave_out((fronts ? "back faces of " : "front faces of ") +
-                           describe_shells(planning.scene, shells),
-                       fronts ? fronts_suffice : backs_suffice);
+    planning.leave_out(
+        (fronts ? "back faces of " : "front faces of ") + describe_shells(planning.scene, shells),
+        fronts ? fronts_suffice : backs_suffice);
   }
 }
 

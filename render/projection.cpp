@@ -69,10 +69,10 @@ bool negative_on(const Box& box, const glm::dvec4& function) {
   return range_on(box, function).hi < 0.0;
 }
 
-/// Where in the picture the box lies along one of its axes, from -1 to 1; all of the axis if part of
-/// the box is before the near plane.
+/// Where in the picture the box lies along one of its axes, from -1 to 1; all of the axis if part
+/// of the box is before the near plane.
 Interval extent_on(const Camera& camera, const std::array<glm::dvec4, 4>& rows, std::size_t axis,
-                    const Box& box) {
+                   const Box& box) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const glm::dvec4& w = rows[3];
   if (camera.perspective && range_on(box, w).lo <= near_plane_mm(camera)) {

@@ -40,8 +40,8 @@ struct RayFrame {
   glm::dvec2 z_of_depth{0.0};
   glm::dvec2 cue{1.0, 0.0};
   glm::dvec2 cue_range{1.0, 1.0};
-  glm::dvec4 slope_of_pixel{0.0};    ///< pixels counted from the corner of the rectangle drawn
-  glm::dmat3 local_from_view{1.0};   ///< columns right, up, forward
+  glm::dvec4 slope_of_pixel{0.0};   ///< pixels counted from the corner of the rectangle drawn
+  glm::dmat3 local_from_view{1.0};  ///< columns right, up, forward
 };
 
 /// @param origin_mm  what local positions are relative to

@@ -16,9 +16,8 @@ constexpr std::array<Named<DepthFormat>, 3> kDepthFormats{
     {{DepthFormat::D16, "16"}, {DepthFormat::D24, "24"}, {DepthFormat::D32F, "32f"}}};
 constexpr std::array<Named<TargetFormat>, 3> kTargetFormats{
     {{TargetFormat::U8, "8"}, {TargetFormat::F16, "16f"}, {TargetFormat::F32, "32f"}}};
-constexpr std::array<Named<Occlusion>, 3> kOcclusions{{{Occlusion::Auto, "auto"},
-                                                       {Occlusion::Passes, "passes"},
-                                                       {Occlusion::Texture, "texture"}}};
+constexpr std::array<Named<Occlusion>, 3> kOcclusions{
+    {{Occlusion::Auto, "auto"}, {Occlusion::Passes, "passes"}, {Occlusion::Texture, "texture"}}};
 
 template <class Value, std::size_t Size>
 std::string_view name_in(const std::array<Named<Value>, Size>& names, Value value) noexcept {

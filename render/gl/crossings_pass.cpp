@@ -14,7 +14,7 @@ out float added;
 void main() {
   float leaving = gl_FrontFacing ? -1.0 : 1.0;
 #if defined(SUM)
-  added = weight * leaving * cue_integral(clamp(depth_mm, 0.0, ray_end_mm()));
+  added = weight * leaving * cue_integral(clamp(depth_mm, 0.0, max(ray_end_mm(), 0.0)));
 #elif defined(COUNT)
   if (outside_ray()) discard;
   added = weight;

@@ -12,7 +12,8 @@ namespace nacre {
 /// Adds up what the crossings of each ray contribute, in any order, in a colour target without
 /// depth.
 ///
-/// - Sum: (r_k - r_previous) s B(d), s = +1 leaving and -1 entering a shell, B the antiderivative of
+/// - Sum: (r_k - r_previous) s B(d), s = +1 leaving and -1 entering a shell, B the antiderivative
+/// of
 ///   the cue along the ray, 0 at its start (see `RayFrame`), d clamped to start and end. A crossing
 ///   before the start adds nothing, one beyond the end ends the emission there.
 /// - Count: r_k, where d is between start and end.

@@ -49,7 +49,7 @@ NORMALS in vec3 surface_normal;
 float ray_end_mm() {
 #ifdef TOOLS
   float tool_mm = texelFetch(tool_layer, ivec2(gl_FragCoord.xy), 0).a;
-  return max(min(end_mm, tool_mm), 0.0);
+  return min(end_mm, tool_mm);
 #else
   return end_mm;
 #endif
@@ -79,9 +79,9 @@ float finite(double value) {
 FrameProgram::FrameProgram(const GlFunctions& gl, std::string_view fragment_source,
                            const std::string& defines)
     : gl_(&gl),
-      program_(make_program(gl, (kVersion + defines + kVertexSource).c_str(),
-                            (kVersion + defines + kFragmentPrelude + std::string(fragment_source))
-                                .c_str())),
+      program_(make_program(
+          gl, (kVersion + defines + kVertexSource).c_str(),
+          (kVersion + defines + kFragmentPrelude + std::string(fragment_source)).c_str())),
       clip_from_local_(uniform("clip_from_local")),
       depth_from_local_(uniform("depth_from_local")),
       end_mm_(uniform("end_mm")),

@@ -19,14 +19,14 @@ struct TileFrame {
                             ///< depth beyond the start of the rays; 0 where there is none
 };
 
-/// A program whose fragments know their place on the ray: the one mechanism by which slabs and tools
-/// cut rays, in all pictures.
+/// A program whose fragments know their place on the ray: the one mechanism by which slabs and
+/// tools cut rays, in all pictures.
 ///
 /// The fragment source may use, besides what it declares itself:
 ///
 ///     float depth_mm            beyond the start of the ray, along the viewing direction
 ///     float ray_end_mm()        where the ray ends: slab or, with TOOLS defined, the nearest tool;
-///                               not before the start
+///                               negative for a tool before the start: nothing shows
 ///     bool  outside_ray()       before the start or beyond the end
 ///     float depth_z()           the design's depth z, in [0, 1]
 ///     float cue_at_depth()      beta(z)

@@ -44,7 +44,8 @@ void load_objects(GlFunctions& gl, const GlContext& context) {
   gl.delete_vertex_arrays = load<PFNGLDELETEVERTEXARRAYSPROC>(context, "glDeleteVertexArrays");
   gl.framebuffer_renderbuffer =
       load<PFNGLFRAMEBUFFERRENDERBUFFERPROC>(context, "glFramebufferRenderbuffer");
-  gl.framebuffer_texture_2d = load<PFNGLFRAMEBUFFERTEXTURE2DPROC>(context, "glFramebufferTexture2D");
+  gl.framebuffer_texture_2d =
+      load<PFNGLFRAMEBUFFERTEXTURE2DPROC>(context, "glFramebufferTexture2D");
   gl.gen_buffers = load<PFNGLGENBUFFERSPROC>(context, "glGenBuffers");
   gl.gen_framebuffers = load<PFNGLGENFRAMEBUFFERSPROC>(context, "glGenFramebuffers");
   gl.gen_renderbuffers = load<PFNGLGENRENDERBUFFERSPROC>(context, "glGenRenderbuffers");

@@ -118,9 +118,9 @@ class GlRenderer::Drawing {
   }
 
   [[noreturn]] static void refuse(std::string_view what, std::uint32_t index) {
-    throw Error(ErrorCode::BadArgument,
-                fmt::format("{} {}: found in the plan, expected it uploaded before", what,
-                            index + 1));
+    throw Error(
+        ErrorCode::BadArgument,
+        fmt::format("{} {}: found in the plan, expected it uploaded before", what, index + 1));
   }
 
   OpenBackend opened_;

@@ -60,7 +60,8 @@ class GlRenderer {
 
   /// The same with these shells only; the surfaces of others may be missing in `set`.
   ///
-  /// @param facts   of the whole set, as a file's header or `scene_facts` gives them; those of tools
+  /// @param facts   of the whole set, as a file's header or `scene_facts` gives them; those of
+  /// tools
   ///                are ignored
   /// @param shells  indices; those that pictures will draw, see `shells_drawn`
   /// @throws Error  BadArgument for a shell that does not exist or has no such number of triangles

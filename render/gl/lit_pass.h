@@ -8,8 +8,8 @@
 
 namespace nacre {
 
-/// Draws lit shells, the nearest crossing of each ray winning: `headlight` of the cosine between the
-/// smooth normal and the way to the eye, times the cue.
+/// Draws lit shells, the nearest crossing of each ray winning: `headlight` of the cosine between
+/// the smooth normal and the way to the eye, times the cue.
 class LitPass {
  public:
   explicit LitPass(const GlFunctions& gl) : gl_(&gl) {}

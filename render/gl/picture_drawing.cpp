@@ -32,8 +32,8 @@ ColorFormat color_format(TargetFormat format) {
   return ColorFormat::R32F;
 }
 
-/// The depths a pass draws, from the start of the rays, with a margin: depths at the very ends would
-/// be lost to the cleared buffer, and a flat tool has one depth only.
+/// The depths a pass draws, from the start of the rays, with a margin: depths at the very ends
+/// would be lost to the cleared buffer, and a flat tool has one depth only.
 Interval test_depths(const Pass& pass, const RaySpan& rays) {
   const double margin = 1e-3 + 1e-3 * (pass.depths_mm.hi - pass.depths_mm.lo);
   return {pass.depths_mm.lo - rays.start_mm - margin, pass.depths_mm.hi - rays.start_mm + margin};
@@ -51,7 +51,8 @@ void copy_tools(std::span<const glm::vec4> layer, const PixelRect& rect, ToolLay
   const auto stride = static_cast<std::size_t>(tools.width);
   std::size_t from = 0;
   for (int y = 0; y < rect.height; ++y) {
-    std::size_t to = static_cast<std::size_t>(rect.y + y) * stride + static_cast<std::size_t>(rect.x);
+    std::size_t to =
+        static_cast<std::size_t>(rect.y + y) * stride + static_cast<std::size_t>(rect.x);
     for (int x = 0; x < rect.width; ++x, ++from, ++to) {
       if (layer[from].w == no_tool_mm()) continue;
       tools.colors[to] = glm::vec3(layer[from]);
@@ -124,9 +125,8 @@ void PictureDrawing::run(const Plan& plan, const Pass& pass, const SceneBuffers&
 
 void PictureDrawing::draw_tools(const Plan& plan, const Pass& pass, const ToolBuffers& tools,
                                 Tile& tile) {
-  const RenderTarget& target =
-      begin(tool_target_, {ColorFormat::Rgba32F, DepthFormat::D32F}, tile.rect, 1.0F,
-            {0.0F, 0.0F, 0.0F, no_tool_mm()});
+  const RenderTarget& target = begin(tool_target_, {ColorFormat::Rgba32F, DepthFormat::D32F},
+                                     tile.rect, 1.0F, {0.0F, 0.0F, 0.0F, no_tool_mm()});
   tool_pass_.draw(pass, test_depths(pass, plan.rays), tools, tile.frame);
   tile.frame.tool_layer = target.texture();
   const glm::ivec2 size(tile.rect.width, tile.rect.height);

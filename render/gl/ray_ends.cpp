@@ -19,8 +19,8 @@ void raise_to_ray_ends(std::span<const float> counts, const std::vector<float>& 
     const double tool_mm = tools.empty() ? no_tool_mm() : tools[i].w;
     if (tool_mm <= 0.0) continue;  // the tool is before the start: nothing of the ray shows
     const double depth_mm = at_end ? std::min(rays.end_mm, tool_mm) : 0.0;
-    const double cue = std::clamp(rays.cue.x + rays.cue.y * depth_mm, rays.cue_range.x,
-                                  rays.cue_range.y);
+    const double cue =
+        std::clamp(rays.cue.x + rays.cue.y * depth_mm, rays.cue_range.x, rays.cue_range.y);
     const double emission = emission_of_count[static_cast<std::size_t>(count)];
     row[i] = std::max(row[i], static_cast<float>(emission * cue));
   }

@@ -11,8 +11,8 @@ namespace nacre {
 /// Depth of a tool layer's pixels without a tool.
 float no_tool_mm() noexcept;
 
-/// Brightness at the start or end of rays, from the numbers of shells counted there: a maximum takes
-/// it where it is more than what the crossings show.
+/// Brightness at the start or end of rays, from the numbers of shells counted there: a maximum
+/// takes it where it is more than what the crossings show.
 ///
 /// @param counts             of shells, whole numbers, one a pixel
 /// @param emission_of_count  [n] for n shells

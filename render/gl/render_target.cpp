@@ -53,11 +53,11 @@ RenderTarget::RenderTarget(const GlFunctions& gl, const glm::ivec2& size,
   gl.read_buffer(layout.color ? GL_COLOR_ATTACHMENT0 : GL_NONE);
   const unsigned status = gl.check_framebuffer_status(GL_FRAMEBUFFER);
   if (status != GL_FRAMEBUFFER_COMPLETE) {
-    throw Error(ErrorCode::Unsupported, fmt::format("target of {} x {} pixels, depth {}, colour {}: "
-                                                    "refused by the driver ({:#x})",
-                                                    size.x, size.y,
-                                                    layout.depth ? name(*layout.depth) : "none",
-                                                    layout.color ? "float" : "none", status));
+    throw Error(ErrorCode::Unsupported,
+                fmt::format("target of {} x {} pixels, depth {}, colour {}: "
+                            "refused by the driver ({:#x})",
+                            size.x, size.y, layout.depth ? name(*layout.depth) : "none",
+                            layout.color ? "float" : "none", status));
   }
 }
 

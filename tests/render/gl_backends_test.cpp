@@ -70,9 +70,9 @@ TEST(Backends, EglAndOsMesaAgreeSideBySide) {
   // Hardware may round corners to the pixel grid differently from Mesa's own renderer.
   const std::size_t silhouettes = egl.info().software ? 0 : 30;
   for (const double azimuth_rad : {0.0, 0.4, 1.1}) {
-    EXPECT_LE(
-        pixels_that_differ(egl.render(camera(azimuth_rad)).volume, osmesa.render(camera(azimuth_rad)).volume),
-        silhouettes);
+    EXPECT_LE(pixels_that_differ(egl.render(camera(azimuth_rad)).volume,
+                                 osmesa.render(camera(azimuth_rad)).volume),
+              silhouettes);
   }
 }
 

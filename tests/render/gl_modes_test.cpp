@@ -83,8 +83,8 @@ std::size_t every() {
   return std::getenv("NACRE_THOROUGH") != nullptr ? 1 : usual;
 }
 
-/// Whether a value is what a point near the pixel's centre shows: one of nine within 1/32 of a pixel
-/// does, or they show a little less and a little more (where surfaces are steep).
+/// Whether a value is what a point near the pixel's centre shows: one of nine within 1/32 of a
+/// pixel does, or they show a little less and a little more (where surfaces are steep).
 bool shows_nearby(double value, const Pixel& truth, int x, int y, double tolerance) {
   double least = truth(x + 0.5, y + 0.5);
   double most = least;
@@ -149,9 +149,7 @@ class GlModes : public GlTest {
 constexpr double kMaxTolerance = 4e-4;  // of emissions up to 1
 constexpr double kSumTolerance = 0.02;  // of up to 80 mm
 
-TEST_F(GlModes, MaxIsWhatRaysShow) {
-  expect_rays({}, &ShellRays::maximum, {}, kMaxTolerance);
-}
+TEST_F(GlModes, MaxIsWhatRaysShow) { expect_rays({}, &ShellRays::maximum, {}, kMaxTolerance); }
 
 TEST_F(GlModes, MaxIsWhatRaysShowBeforeToolsByTexture) {
   expect_rays({.occlusion = Occlusion::Texture}, &ShellRays::maximum, bar_and_flag(),
@@ -159,8 +157,7 @@ TEST_F(GlModes, MaxIsWhatRaysShowBeforeToolsByTexture) {
 }
 
 TEST_F(GlModes, MaxIsWhatRaysShowBeforeToolsByPasses) {
-  expect_rays({.occlusion = Occlusion::Passes}, &ShellRays::maximum, bar_and_flag(),
-              kMaxTolerance);
+  expect_rays({.occlusion = Occlusion::Passes}, &ShellRays::maximum, bar_and_flag(), kMaxTolerance);
 }
 
 TEST_F(GlModes, SumIsWhatRaysShow) {
@@ -207,7 +204,8 @@ TEST_F(GlModes, LitShellsShowBeforeToolsOnly) {
     const RenderOptions options{.mode = PictureMode::Iso, .cue = kCues[1]};
     const Image image = draw_with(tools, set, camera, options).volume;
     const ShellRays rays(set, tools, camera, kCues[1]);
-    expect_pixels(image, [&](double x, double y) { return rays.lit_ball(x, y); }, 0.03);
+    expect_pixels(
+        image, [&](double x, double y) { return rays.lit_ball(x, y); }, 0.03);
   }
 }
 

@@ -36,8 +36,8 @@ void add_crossing(const Ray& ray, const glm::dvec3& a, const glm::dvec3& b, cons
   const glm::dvec3 q = glm::cross(from_a, ab);
   const double v = glm::dot(ray.direction, q) / determinant;
   if (u < -kEdge || v < -kEdge || u + v > 1.0 + kEdge) return;
-  crossings.push_back({glm::dot(ac, q) / determinant, determinant > 0.0,
-                       glm::normalize(glm::cross(ab, ac))});
+  crossings.push_back(
+      {glm::dot(ac, q) / determinant, determinant > 0.0, glm::normalize(glm::cross(ab, ac))});
 }
 
 /// All crossings of the line with the mesh, by t; the positions are first mapped.
@@ -120,8 +120,8 @@ std::optional<glm::vec3> ShellRays::tool_color(double pixel_x, double pixel_y) c
     for (const Crossing& crossing : crossings_of(ray, tool.mesh, place)) {
       if (crossing.t_mm >= nearest || (camera_.perspective && crossing.t_mm <= 0.0)) continue;
       nearest = crossing.t_mm;
-      const double z = std::clamp(
-          depth_z(camera_, ray.origin_mm + nearest * ray.direction), 0.0, 1.0);
+      const double z =
+          std::clamp(depth_z(camera_, ray.origin_mm + nearest * ray.direction), 0.0, 1.0);
       const double cosine = std::abs(glm::dot(crossing.normal, ray.direction));
       color = tool.color * static_cast<float>(headlight(cosine) * beta(cue_, z));
     }
@@ -137,8 +137,8 @@ double ShellRays::maximum(double pixel_x, double pixel_y) const {
   for (const Shell& shell : set_.shells) {
     const auto crossings = crossings_of(relative_to(set_.center_mm, ray), shell.surface);
     for (const auto& [begin, end] : parts_inside(crossings, shown)) {
-      largest = std::max(
-          largest, shell.representative * std::max(cue_at(ray, begin), cue_at(ray, end)));
+      largest =
+          std::max(largest, shell.representative * std::max(cue_at(ray, begin), cue_at(ray, end)));
     }
   }
   return largest;
@@ -167,8 +167,7 @@ double ShellRays::count(double pixel_x, double pixel_y) const {
   shown.t_end_mm = std::min(shown.t_end_mm, tool_t_mm(pixel_x, pixel_y));
   double total = 0.0;
   for (const Shell& shell : set_.shells) {
-    for (const Crossing& crossing :
-         crossings_of(relative_to(set_.center_mm, ray), shell.surface)) {
+    for (const Crossing& crossing : crossings_of(relative_to(set_.center_mm, ray), shell.surface)) {
       const bool shows = crossing.t_mm >= shown.t_begin_mm && crossing.t_mm <= shown.t_end_mm;
       if (shows) total += shell.representative;
     }
@@ -182,8 +181,7 @@ double ShellRays::lit_ball(double pixel_x, double pixel_y) const {
   shown.t_end_mm = std::min(shown.t_end_mm, tool_t_mm(pixel_x, pixel_y));
   double nearest = kInfinity;
   for (const Shell& shell : set_.shells) {
-    for (const Crossing& crossing :
-         crossings_of(relative_to(set_.center_mm, ray), shell.surface)) {
+    for (const Crossing& crossing : crossings_of(relative_to(set_.center_mm, ray), shell.surface)) {
       const bool shows = crossing.t_mm >= shown.t_begin_mm && crossing.t_mm <= shown.t_end_mm;
       if (shows) nearest = std::min(nearest, crossing.t_mm);
     }

@@ -27,8 +27,8 @@ class ShellRays {
   /// Sum of r_k over the crossings between start and end.
   double count(double pixel_x, double pixel_y) const;
 
-  /// headlight times beta at the nearest crossing, with the outward normal of a ball about the set's
-  /// centre; 0 without a crossing.
+  /// headlight times beta at the nearest crossing, with the outward normal of a ball about the
+  /// set's centre; 0 without a crossing.
   double lit_ball(double pixel_x, double pixel_y) const;
 
   /// Depth along the ray of the nearest tool, mm from its origin; infinite without one.
