@@ -77,7 +77,8 @@ void run_exact(const ExactFlags& flags) {
   refuse_tools(flags.scene, "the exact walk");
   CameraOptions camera = camera_options(flags.camera);
   check_mode(flags.picture);
-  const ExactPictureOptions options{picture_mode(flags.picture), slab(flags.camera)};
+  const ExactPictureOptions options{.mode = picture_mode(flags.picture),
+                                    .slab = slab(flags.camera)};
 
   Timing timing;
   Stopwatch watch;
@@ -94,9 +95,10 @@ void run_exact(const ExactFlags& flags) {
   const auto draw = [&](int view) {
     camera.azimuth_rad = start + 2.0 * std::numbers::pi * view / views;
     watch.lap();
-    Image image = exact_picture(walk, make_camera(camera, sphere), options, reporter.progress());
+    Picture picture =
+        exact_picture(walk, make_camera(camera, sphere), options, reporter.progress());
     timing.frames[static_cast<std::size_t>(view)] = watch.lap();
-    return Picture{std::move(image), std::nullopt};
+    return picture;
   };
   const TurntableResult result = write_views(flags.picture, {.views = views}, draw);
   timing.write = result.write_seconds;
