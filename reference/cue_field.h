@@ -12,7 +12,7 @@ namespace nacre {
 ///     beta(p) = at_center + rise_per_mm . (p - center_mm).
 ///
 /// Along a ray it is linear in t, in perspective too: depth is measured along the viewing
-/// direction. The default is no cue, 1 everywhere.
+/// direction (docs/derivations.md, section 2.5). The default is no cue, 1 everywhere.
 struct CueField {
   double at_center = 1.0;
   glm::dvec3 center_mm{0.0};    ///< LPS

@@ -19,7 +19,8 @@ struct LayerCrossing {
   std::optional<int> face_axis;  ///< of the border face it lies in, if it is in a cap
 };
 
-/// Calls `on_crossing` for each crossing, from near to far; false ends the walk.
+/// Calls `on_crossing` for each crossing, from near to far; false ends the walk. Caps count where
+/// the line passes a border face (docs/derivations.md, section 2.6).
 void for_each_crossing(const WalkField& field, const LayerLadder& ladder, const BoxPassage& passage,
                        const std::function<bool(const LayerCrossing&)>& on_crossing);
 

@@ -5,7 +5,8 @@
 
 namespace nacre {
 
-/// The largest beta(t) r_k over the shells k around the line's points; at least 0.
+/// The largest beta(t) r_k over the shells k around the line's points; at least 0
+/// (docs/derivations.md, section 2.7).
 double max_layer_emission(const WalkField& field, const LayerLadder& ladder, const CellLine& line,
                           const LineInterval& interval, const LineCue& beta);
 

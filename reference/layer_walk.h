@@ -23,9 +23,9 @@ struct SurfaceHit {
 /// capped in the border plane.
 ///
 /// A crossing is a root of the cell's cubic; the number of levels reached is carried from cell to
-/// cell, so that entries and exits balance (docs/derivations.md, section 2.7). Where a ray's
-/// interval begins or ends inside the volume there is no crossing. The `ExactWalk` must outlive
-/// this object. Safe to use from many threads.
+/// cell, so that entries and exits balance (docs/derivations.md, sections 2.6 and 2.7). Where a
+/// ray's interval begins or ends inside the volume there is no crossing. The `ExactWalk` must
+/// outlive this object. Safe to use from many threads.
 class LayerWalk {
  public:
   /// @param levels  the shown ones, values ascending; representatives need not ascend

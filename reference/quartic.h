@@ -11,7 +11,8 @@ struct BernsteinQuartic {
   std::array<double, 5> b;
 };
 
-/// (w0 (1-s) + w1 s) f(s). Its coefficients are means of products, with positive weights:
+/// (w0 (1-s) + w1 s) f(s). Its coefficients are means of products, with positive weights
+/// (docs/derivations.md, section 2.5):
 ///
 ///     c_k = (k w1 b_(k-1) + (4-k) w0 b_k) / 4.
 BernsteinQuartic product(double w0, double w1, const BernsteinCubic& f) noexcept;
