@@ -62,7 +62,8 @@ void run_exact(const ExactFlags& flags) {
   refuse_cue(flags.scene, "the exact walk");
   refuse_tools(flags.scene, "the exact walk");
   CameraOptions camera = camera_options(flags.camera);
-  const ExactPictureOptions options{.mode = picture_mode(flags.picture), .slab = slab(flags.camera)};
+  const ExactPictureOptions options{.mode = picture_mode(flags.picture),
+                                    .slab = slab(flags.camera)};
 
   Timing timing;
   Stopwatch watch;
@@ -79,7 +80,7 @@ void run_exact(const ExactFlags& flags) {
   for (int view = 0; view < views; ++view) {
     camera.azimuth_rad = start + 2.0 * std::numbers::pi * view / views;
     watch.lap();
-    image = exact_picture(walk, make_camera(camera, sphere), options, reporter.progress());
+    image = exact_picture(walk, make_camera(camera, sphere), options, reporter.progress()).volume;
     timing.frames.push_back(watch.lap());
     if (flags.picture.output.empty()) continue;
     write_picture(image, flags.picture, numbered_name(flags.picture.output, view));

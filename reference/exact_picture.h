@@ -8,6 +8,7 @@
 #include "core/progress.h"
 #include "reference/exact_walk.h"
 #include "reference/layer_walk.h"
+#include "reference/tool_rays.h"
 
 namespace nacre {
 
@@ -17,6 +18,7 @@ struct ExactPictureOptions {
   DepthCue cue = {};
   Slab slab = {};
   std::vector<ShownLevel> levels = {};  ///< of count, iso and ideal shells: at least one
+  const ToolRays* tools = nullptr;      ///< none, or what outlives the call
 };
 
 /// The exact picture of a volume: one ray through each pixel's centre.
@@ -27,11 +29,13 @@ struct ExactPictureOptions {
 /// - iso: the first crossing of an ideal shell, `headlight` of the field's exact normal times beta
 ///   there. A surface met from inside is turned away from the light.
 ///
-/// Pixels that show nothing are 0. Uses all cores; the same bytes for any number of threads.
+/// The volume shows only in front of the nearest tool, which slabs do not cut. Pixels that show
+/// nothing are 0. Uses all cores; the same bytes for any number of threads.
 ///
 /// @throws Error  BadArgument for a bad cue, an empty slab, or missing or bad levels
-Image exact_picture(const ExactWalk& walk, const Camera& camera,
-                    const ExactPictureOptions& options = {}, const ProgressCallback& progress = {});
+Picture exact_picture(const ExactWalk& walk, const Camera& camera,
+                      const ExactPictureOptions& options = {},
+                      const ProgressCallback& progress = {});
 
 /// What ideal shells at the options' levels would show: as `exact_picture`, but with the
 /// piecewise-constant emission of the layers in max and sum.
@@ -40,7 +44,7 @@ Image exact_picture(const ExactWalk& walk, const Camera& camera,
 /// - sum: the integral of beta r_n, n the layer, [H96] eq. 2.
 ///
 /// A shell that is not among the levels leaves its layer to the one before it.
-Image ideal_picture(const ExactWalk& walk, const Camera& camera, const ExactPictureOptions& options,
-                    const ProgressCallback& progress = {});
+Picture ideal_picture(const ExactWalk& walk, const Camera& camera,
+                      const ExactPictureOptions& options, const ProgressCallback& progress = {});
 
 }  // namespace nacre

@@ -98,10 +98,15 @@ class ShellPainter {
     for (int first = 0; first < camera_.size.y; first += rows) {
       paint_rows(first, std::min(first + rows, camera_.size.y), picture, meter);
     }
+    if (picture.tools && !is_seen(*picture.tools)) picture.tools.reset();
     return picture;
   }
 
  private:
+  static bool is_seen(const ToolLayer& tools) {
+    return std::ranges::any_of(tools.covered, [](std::uint8_t covered) { return covered != 0; });
+  }
+
   void paint_rows(int first, int end, Picture& picture, ProgressMeter& meter) {
     first_row_ = first;
     end_row_ = end;

@@ -18,28 +18,6 @@
 namespace nacre {
 namespace {
 
-void check(const Volume& volume, const ShellSet& set) {
-  if (!set.grid) {
-    throw Error(ErrorCode::BadArgument, "shell set: found no quantisation grid, expected one");
-  }
-  const VolumeFacts& facts = set.volume;
-  if (volume.dims != facts.dims || volume.type != facts.type) {
-    throw Error(
-        ErrorCode::BadArgument,
-        fmt::format("volume: found {} x {} x {} samples of {}, expected {} x {} x {} of {}, "
-                    "which the shell set was made from",
-                    volume.dims.x, volume.dims.y, volume.dims.z, name(volume.type), facts.dims.x,
-                    facts.dims.y, facts.dims.z, name(facts.type)));
-  }
-  const std::uint64_t checksum = voxel_checksum(volume);
-  if (checksum != facts.checksum) {
-    throw Error(ErrorCode::BadArgument,
-                fmt::format("volume: found samples with the checksum {:016x}, expected {:016x}, "
-                            "which the shell set was made from",
-                            checksum, facts.checksum));
-  }
-}
-
 /// Puts the surfaces of the set's levels into it, as they come from the volume.
 void extract_anew(const Volume& volume, ShellSet& set, const ProgressCallback& progress) {
   std::vector<double> values;
@@ -65,10 +43,31 @@ std::vector<ShownLevel> shown_levels(const ShellSet& set, std::span<const std::u
 
 }  // namespace
 
+void check_same_volume(const Volume& volume, const VolumeFacts& facts) {
+  if (volume.dims != facts.dims || volume.type != facts.type) {
+    throw Error(
+        ErrorCode::BadArgument,
+        fmt::format("volume: found {} x {} x {} samples of {}, expected {} x {} x {} of {}, "
+                    "which the shell set was made from",
+                    volume.dims.x, volume.dims.y, volume.dims.z, name(volume.type), facts.dims.x,
+                    facts.dims.y, facts.dims.z, name(facts.type)));
+  }
+  const std::uint64_t checksum = voxel_checksum(volume);
+  if (checksum != facts.checksum) {
+    throw Error(ErrorCode::BadArgument,
+                fmt::format("volume: found samples with the checksum {:016x}, expected {:016x}, "
+                            "which the shell set was made from",
+                            checksum, facts.checksum));
+  }
+}
+
 ShellErrorChain shell_error_chain(Volume volume, ShellSet set, const Camera& camera,
                                   const ShellPictureOptions& options,
                                   const ProgressCallback& progress) {
-  check(volume, set);
+  check_same_volume(volume, set.volume);
+  if (!set.grid) {
+    throw Error(ErrorCode::BadArgument, "shell set: found no quantisation grid, expected one");
+  }
   volume.slope = set.volume.slope;
   volume.intercept = set.volume.intercept;
   volume.world_from_voxel = set.volume.world_from_voxel;

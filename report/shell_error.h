@@ -18,6 +18,10 @@ struct ShellErrorChain {
   std::vector<ErrorStage> stages;  ///< the last is the exact picture of the set's surfaces
 };
 
+/// Refuses a volume that a shell set was not made from.
+/// @throws Error  BadArgument if dims, type or voxel checksum are not the set's
+void check_same_volume(const Volume& volume, const VolumeFacts& facts);
+
 /// The exact pictures that lie between a volume and a shell set made from it, each with one more
 /// cause of error than the one before:
 ///
@@ -35,8 +39,8 @@ struct ShellErrorChain {
 ///                 taken from the set, which may have negated them (maps that fall)
 /// @param set      decoded, with its grid
 /// @param options  mode, cue, slab, hidden shells and tools, as for `shell_picture`
-/// @throws Error   BadArgument if the volume's dims, type or voxel checksum are not the set's, or
-///                 the set has no grid; as `shell_picture`, `exact_picture`, `snap` do
+/// @throws Error   BadArgument if the set has no grid; as `check_same_volume`, `shell_picture`,
+///                 `exact_picture` and `snap` do
 ///
 /// Holds one set of surfaces at a time: the set's are freed before those of the volume are
 /// extracted. The same for any number of threads.
