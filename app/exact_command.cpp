@@ -7,9 +7,12 @@
 #include <algorithm>
 #include <memory>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "app/thread_limit.h"
+#include "app/turntable_output.h"
+#include "core/error.h"
 #include "core/volume_geometry.h"
 #include "reference/exact_picture.h"
 
@@ -25,8 +28,9 @@ struct Timing {
   double write = 0.0;
 };
 
-ordered_json figures(const ExactFlags& flags, const EmissionVolume& input, const Image& image,
-                     const Timing& timing) {
+ordered_json figures(const ExactFlags& flags, const EmissionVolume& input,
+                     const TurntableResult& result, const Timing& timing) {
+  const Image& image = result.last.volume;
   const auto [least, greatest] = std::minmax_element(image.pixels.begin(), image.pixels.end());
   ordered_json json;
   json["backend"] = "exact";
@@ -35,6 +39,7 @@ ordered_json figures(const ExactFlags& flags, const EmissionVolume& input, const
   json["window"] = {input.emission.lo(), input.emission.hi()};
   json["picture"] = {
       {"width", image.width}, {"height", image.height}, {"least", *least}, {"greatest", *greatest}};
+  if (result.window) json["display"] = {result.window->lo, result.window->hi};
   json["passes"] = {"walk every ray"};
   json["left_out"] = ordered_json::array();
   json["triangles_drawn"] = 0;
@@ -45,6 +50,15 @@ ordered_json figures(const ExactFlags& flags, const EmissionVolume& input, const
                      {"write", timing.write}};
   json["peak_rss_bytes"] = peak_rss_bytes();
   return json;
+}
+
+void check_mode(const PictureFlags& flags) {
+  const PictureMode mode = picture_mode(flags);
+  if (mode == PictureMode::Max || mode == PictureMode::Sum) return;
+  throw Error(ErrorCode::Unsupported,
+              fmt::format("--mode: found {}, which is a picture of shells, expected max or sum for "
+                          "the exact walk",
+                          flags.mode));
 }
 
 /// Median of frame times, for the line that is said.
@@ -62,6 +76,7 @@ void run_exact(const ExactFlags& flags) {
   refuse_cue(flags.scene, "the exact walk");
   refuse_tools(flags.scene, "the exact walk");
   CameraOptions camera = camera_options(flags.camera);
+  check_mode(flags.picture);
   const ExactPictureOptions options{.mode = picture_mode(flags.picture),
                                     .slab = slab(flags.camera)};
 
@@ -76,21 +91,23 @@ void run_exact(const ExactFlags& flags) {
 
   const int views = std::max(flags.camera.turntable, 1);
   const double start = camera.azimuth_rad;
-  Image image;
-  for (int view = 0; view < views; ++view) {
+  timing.frames.resize(static_cast<std::size_t>(views));
+  const auto draw = [&](int view) {
     camera.azimuth_rad = start + 2.0 * std::numbers::pi * view / views;
     watch.lap();
-    image = exact_picture(walk, make_camera(camera, sphere), options, reporter.progress()).volume;
-    timing.frames.push_back(watch.lap());
-    if (flags.picture.output.empty()) continue;
-    write_picture(image, flags.picture, numbered_name(flags.picture.output, view));
-    timing.write += watch.lap();
-  }
+    Picture picture =
+        exact_picture(walk, make_camera(camera, sphere), options, reporter.progress());
+    timing.frames[static_cast<std::size_t>(view)] = watch.lap();
+    return picture;
+  };
+  const TurntableResult result = write_views(flags.picture, {.views = views}, draw);
+  timing.write = result.write_seconds;
+  const Image& image = result.last.volume;
   reporter.say(fmt::format("{} {} of {} x {} pixels, {:.1f} ms a frame (exact){}{}", views,
                            views == 1 ? "picture" : "pictures", image.width, image.height,
                            1e3 * median(timing.frames), flags.picture.output.empty() ? "" : " -> ",
                            flags.picture.output));
-  reporter.finish(figures(flags, input, image, timing));
+  reporter.finish(figures(flags, input, result, timing));
 }
 
 void add_reference_verb(CLI::App& app, int& /*status*/) {

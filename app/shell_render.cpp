@@ -7,10 +7,12 @@
 #include <algorithm>
 #include <numbers>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "app/flag_values.h"
 #include "app/thread_limit.h"
+#include "app/turntable_output.h"
 #include "core/error.h"
 #include "core/volume_geometry.h"
 #include "io/shell_reader.h"
@@ -86,12 +88,14 @@ std::vector<std::uint32_t> drawn_in_any(const std::vector<Plan>& plans) {
 }
 
 ordered_json figures_of(const GlRenderer& renderer, const ExactFlags& flags, const Plan& plan,
-                        const Image& image, const Timing& timing) {
+                        const TurntableResult& result, const Timing& timing) {
+  const Image& image = result.last.volume;
   ordered_json json;
   json["backend"] = name(renderer.info().backend);
   json["renderer"] = renderer.info().renderer;
   json["mode"] = flags.picture.mode;
   json["picture"] = {{"width", image.width}, {"height", image.height}};
+  if (result.window) json["display"] = {result.window->lo, result.window->hi};
   json["passes"] = ordered_json::array();
   for (const Pass& pass : plan.passes) json["passes"].push_back(describe(pass));
   json["left_out"] = ordered_json::array();
@@ -114,17 +118,18 @@ void draw_views(GlRenderer& renderer, const ExactFlags& flags, const DrawFlags& 
                 const Views& views, const std::vector<Plan>& plans, Timing timing,
                 Reporter& reporter) {
   if (draw.explain) say_plan(plans.front(), reporter);
-  Stopwatch watch;
-  Image image;
-  for (std::size_t view = 0; view < plans.size(); ++view) {
-    image = renderer.render(views.cameras[view], plans[view]).volume;
-    timing.frames.push_back(renderer.last_frame().seconds);
-    if (flags.picture.output.empty()) continue;
-    watch.lap();
-    write_picture(image, flags.picture,
-                  numbered_name(flags.picture.output, static_cast<int>(view)));
-    timing.write += watch.lap();
-  }
+  timing.frames.resize(plans.size());
+  const auto draw_view = [&](int number) {
+    const auto view = static_cast<std::size_t>(number);
+    Picture picture = renderer.render(views.cameras[view], plans[view]);
+    timing.frames[view] = renderer.last_frame().seconds;
+    return picture;
+  };
+  const TurntableResult result = write_views(
+      flags.picture, {.views = static_cast<int>(plans.size()), .tools = !flags.scene.tools.empty()},
+      draw_view);
+  timing.write = result.write_seconds;
+  const Image& image = result.last.volume;
   std::vector<double> sorted = timing.frames;
   std::sort(sorted.begin(), sorted.end());
   reporter.say(fmt::format("{} {} of {} x {} pixels, {:.1f} ms a frame, {} triangles ({}: {}){}{}",
@@ -133,7 +138,7 @@ void draw_views(GlRenderer& renderer, const ExactFlags& flags, const DrawFlags& 
                            renderer.last_frame().triangles, name(renderer.info().backend),
                            renderer.info().renderer, flags.picture.output.empty() ? "" : " -> ",
                            flags.picture.output));
-  reporter.finish(figures_of(renderer, flags, plans.back(), image, timing));
+  reporter.finish(figures_of(renderer, flags, plans.back(), result, timing));
 }
 
 std::vector<Plan> plans_for(const SceneFacts& facts, const Views& views,

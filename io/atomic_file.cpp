@@ -69,8 +69,14 @@ void AtomicFile::write(std::string_view text) {
   write(std::as_bytes(std::span(text.data(), text.size())));
 }
 
+void AtomicFile::close() {
+  if (file_ != nullptr && std::fclose(file_.release()) != 0) {
+    throw_unwritable(path_, std::strerror(errno));
+  }
+}
+
 void AtomicFile::commit() {
-  if (std::fclose(file_.release()) != 0) throw_unwritable(path_, std::strerror(errno));
+  close();
   if (temporary_ == path_) return;
   std::error_code failure;
   fs::rename(temporary_, path_, failure);

@@ -31,6 +31,11 @@ class AtomicFile {
   void write(std::span<const std::byte> bytes);
   void write(std::string_view text);
 
+  /// Flushes and closes, but keeps the temporary name: `commit` is then only the renaming. So many
+  /// files can be written before the first of them appears.
+  /// @throws Error  Unsupported if the last bytes cannot be written
+  void close();
+
   /// Flushes, closes and renames. Nothing may be written afterwards.
   /// @throws Error  Unsupported if the last bytes or the name cannot be written
   void commit();

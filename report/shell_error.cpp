@@ -79,9 +79,9 @@ ShellErrorChain shell_error_chain(Volume volume, ShellSet set, const Camera& cam
   const ExactWalk walk(volume, EmissionMap::piecewise_linear(set.emission));
   const ExactPictureOptions exact{options.mode, options.cue, options.slab,
                                   shown_levels(set, options.hidden)};
-  chain.truth = exact_picture(walk, camera, exact, progress);
+  chain.truth = exact_picture(walk, camera, exact, progress).volume;
   if (options.mode == PictureMode::Max || options.mode == PictureMode::Sum) {
-    chain.stages.push_back({"levels", ideal_picture(walk, camera, exact, progress)});
+    chain.stages.push_back({"levels", ideal_picture(walk, camera, exact, progress).volume});
   }
   extract_anew(volume, set, progress);
   chain.stages.push_back({"contouring", picture_of_set()});

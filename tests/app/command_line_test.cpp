@@ -70,9 +70,16 @@ TEST_F(Command, WrongUseIsStatusTwo) {
   expect_refusal("reference ball.nii -o a.png --distance 100", 2, "perspective");
   expect_refusal("reference ball.nii -o a.png --slab 5,-5", 2, "NEAR < FAR");
   expect_refusal("reference ball.nii -o a.png --look-at 1,2", 2, "X,Y,Z");
-  expect_refusal("reference ball.nii -o a.png --mode average", 2, "max or sum");
+  expect_refusal("reference ball.nii -o a.png --mode average", 2, "max, sum, count or iso");
   expect_refusal("reference ball.nii -o a.png --colormap jet", 2, "jet");
   expect_refusal("reference ball.nii -o a.png --turntable 5", 2, "%03d");
+  expect_refusal("reference ball.nii -o t%03d.apng --turntable 5", 2, "one .apng holds all views");
+  expect_refusal("reference ball.nii -o a.png --tool-blend mix", 2, "max or over");
+  expect_refusal("reference ball.nii -o a.png --display 1", 2, "LO,HI");
+  expect_refusal("reference ball.nii -o a.png --display 1,1 --mode sum", 2, "LO < HI");
+  expect_refusal("reference ball.nii --turntable 2 --colormap jet", 2, "viridis");
+  expect_refusal("reference ball.nii -o a.png --cue 1,2", 2, "A,B,BETA0");
+  expect_refusal("reference ball.nii -o a.png --cue -2,1,0", 2, "depth cue");
   expect_refusal("reference ball.nii -o a.png --crop 0,99,0,1,0,1", 2, "crop");
   expect_refusal("reference ball.nii -o a.png --threads 0", 2, "threads");
   expect_refusal("reference ball.nii -o no/such/folder/a.png", 2, "cannot be created");
@@ -130,6 +137,44 @@ TEST_F(Command, TurntableNumbersItsPictures) {
   }
   const CommandResult timing = nacre("reference ball.nii --size 8x8 --turntable 5 --json -");
   EXPECT_EQ(json::parse(timing.output)["seconds"]["frames"].size(), 5u);
+}
+
+TEST_F(Command, TurntableMayBeOneAnimatedPng) {
+  ASSERT_EQ(nacre("reference ball.nii --size 8x8 --mode sum --turntable 3 -o t.apng").status, 0);
+  EXPECT_EQ(read_png(folder_.path() / "t.apng").width, 8);
+  EXPECT_NE(testing::read_bytes(folder_.path() / "t.apng").find("fdAT"), std::string::npos);
+}
+
+TEST_F(Command, TurntableShowsASumWithOneWindow) {
+  const CommandResult all =
+      nacre("reference ball.nii --size 8x8 --mode sum --turntable 3 -o t%d.png --json -");
+  double largest = 0.0;
+  for (const char* azimuth : {"0", "120", "240"}) {
+    const CommandResult one = nacre(std::string("reference ball.nii --size 8x8 --mode sum -o a.tif "
+                                                "--json - --azimuth ") +
+                                    azimuth);
+    largest = std::max(largest, json::parse(one.output)["picture"]["greatest"].get<double>());
+  }
+  EXPECT_NEAR(json::parse(all.output)["display"][1].get<double>(), largest, 1e-6 * largest);
+}
+
+TEST_F(Command, ModesOfShellsAreNoneOfTheExactWalk) {
+  for (const char* mode : {"count", "iso"}) {
+    expect_refusal(std::string("reference ball.nii -o a.png --mode ") + mode, 4, mode);
+    expect_refusal(std::string("render ball.nii --method exact -o a.png --mode ") + mode, 4, mode);
+  }
+}
+
+TEST_F(Command, EveryColourMapIsListedAndWorks) {
+  const std::string help = nacre("render -h").output;
+  for (const char* map : {"gray", "gray-inverted", "hot", "hot-iron", "bone", "angio", "viridis",
+                          "inferno", "magma", "plasma", "cividis"}) {
+    EXPECT_NE(help.find(map), std::string::npos) << map;
+    ASSERT_EQ(nacre(std::string("reference ball.nii --size 8x8 -o a.png --colormap ") + map).status,
+              0);
+    EXPECT_EQ(read_png(folder_.path() / "a.png").channels,
+              std::string(map).rfind("gray", 0) == 0 ? 1 : 3);
+  }
 }
 
 TEST_F(Command, CompareMeasuresAndJudges) {

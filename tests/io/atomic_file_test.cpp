@@ -22,6 +22,17 @@ TEST(AtomicFile, AppearsUnderItsNameWhenCommitted) {
   EXPECT_EQ(folder.file_count(), 1u);
 }
 
+TEST(AtomicFile, ClosedKeepsItsTemporaryNameUntilCommitted) {
+  const ScratchFolder folder;
+  AtomicFile file(folder.path() / "a.txt");
+  file.write(std::string_view("whole"));
+  file.close();
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "a.txt"));
+  EXPECT_EQ(read_bytes(file.temporary_path()), "whole");
+  file.commit();
+  EXPECT_EQ(read_bytes(folder.path() / "a.txt"), "whole");
+}
+
 TEST(AtomicFile, LeavesTheOldFileAndNothingElseWithoutCommit) {
   const ScratchFolder folder;
   folder.write("a.txt", "old");
