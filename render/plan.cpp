@@ -64,7 +64,6 @@ Plan make_plan(const SceneFacts& scene, const Camera& camera, const RenderOption
   check(scene, options);
   Planning planning{.scene = scene, .camera = camera, .options = options};
   Plan& plan = planning.plan;
-  plan.mode = options.mode;
   plan.depth = options.depth;
   plan.target = options.target;
   plan.cue = options.cue;

@@ -81,7 +81,6 @@ std::string describe(const Pass& pass);
 
 /// All that drawing a picture takes, and what it does without.
 struct Plan {
-  PictureMode mode = PictureMode::Max;
   std::vector<Pass> passes;       ///< none for a picture that is black anyway
   std::vector<LeftOut> left_out;  ///< in the order the rules were tried
   std::vector<PixelRect> tiles;   ///< the passes are run on each; they cover the picture
