@@ -3,12 +3,25 @@
 #include "core/error.h"
 
 namespace nacre {
+namespace {
 
-ShellSet build_shell_set(const ShellFlags& /*flags*/, EmissionVolume /*input*/,
-                         Reporter& /*reporter*/, BuildFigures& /*figures*/) {
+[[noreturn]] void refuse() {
   throw Error(ErrorCode::Unsupported,
               "found a build without the shell tools, expected one with CGAL and OpenMesh "
               "(NACRE_BUILD_AUTHORING)");
+}
+
+}  // namespace
+
+ShellSet build_shell_set(const ShellFlags& /*flags*/, EmissionVolume /*input*/,
+                         Reporter& /*reporter*/, BuildFigures& /*figures*/) {
+  refuse();
+}
+
+CompressedSet build_compressed_set(const ShellFlags& /*flags*/, EmissionVolume /*input*/,
+                                   const std::filesystem::path& /*scratch_folder*/,
+                                   Reporter& /*reporter*/, BuildFigures& /*figures*/) {
+  refuse();
 }
 
 }  // namespace nacre
