@@ -48,16 +48,15 @@ std::optional<ScratchFile> ScratchFile::create(const fs::path& folder) {
   return ScratchFile(descriptor);
 }
 
-std::optional<std::uint64_t> ScratchFile::append(std::span<const std::byte> bytes) {
-  const std::uint64_t offset = size_->fetch_add(bytes.size());
+bool ScratchFile::write(std::uint64_t offset, std::span<const std::byte> bytes) {
   for (std::size_t done = 0; done < bytes.size();) {
     const ssize_t count = pwrite(descriptor_->number(), bytes.data() + done, bytes.size() - done,
                                  static_cast<off_t>(offset + done));
     if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) return std::nullopt;
+    if (count <= 0) return false;
     done += static_cast<std::size_t>(count);
   }
-  return offset;
+  return true;
 }
 
 void ScratchFile::read(std::uint64_t offset, std::span<std::byte> bytes) const {

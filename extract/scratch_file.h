@@ -18,11 +18,14 @@ class ScratchFile {
   /// @return        none where no such file can be made
   static std::optional<ScratchFile> create(const std::filesystem::path& folder);
 
-  /// Appends bytes; safe to call from any thread.
-  /// @return  where they begin; none where they cannot be written (a full disk)
-  std::optional<std::uint64_t> append(std::span<const std::byte> bytes);
+  /// Room for this many bytes; safe to call from any thread, as all that follows.
+  /// @return  where they begin
+  std::uint64_t reserve(std::uint64_t size) { return size_->fetch_add(size); }
 
-  /// Reads what was appended; safe to call from any thread.
+  /// @return  whether the bytes could be written (a full disk)
+  bool write(std::uint64_t offset, std::span<const std::byte> bytes);
+
+  /// Reads what was written.
   /// @throws Error  Unsupported if it cannot be read back
   void read(std::uint64_t offset, std::span<std::byte> bytes) const;
 

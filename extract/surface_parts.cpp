@@ -23,6 +23,20 @@ std::span<Element> grow(std::vector<Element>& elements, std::size_t count) {
   return std::span(elements).last(count);
 }
 
+/// Writes a stream to a file in one piece.
+/// @return  where it begins; none where it cannot be written
+template <class Element>
+std::optional<std::uint64_t> write_all(ChunkedStream<Element>& stream, ScratchFile& file) {
+  const std::uint64_t begin = file.reserve(stream.size() * sizeof(Element));
+  std::uint64_t offset = begin;
+  bool is_written = true;
+  stream.for_each_chunk([&](std::span<Element> chunk) {
+    is_written = is_written && file.write(offset, std::as_bytes(chunk));
+    offset += chunk.size_bytes();
+  });
+  return is_written ? std::optional(begin) : std::nullopt;
+}
+
 }  // namespace
 
 SurfaceParts::SurfaceParts(std::size_t slab_count, std::size_t level_count, bool reversed,
@@ -56,15 +70,10 @@ bool SurfaceParts::store(SlabOutput& output, std::vector<Place>& places) {
 }
 
 std::optional<SurfaceParts::Place> SurfaceParts::store(LevelOutput& output) {
-  // In one piece each: chunks of other slabs would come in between.
-  std::vector<glm::vec3> positions;
-  std::vector<glm::uvec3> triangles;
-  append_positions(output, positions);
-  append_triangles(output, {}, false, triangles);
-  const auto positions_begin = scratch_->append(std::as_bytes(std::span(positions)));
-  const auto triangles_begin = scratch_->append(std::as_bytes(std::span(triangles)));
-  if (!positions_begin || !triangles_begin) return std::nullopt;
-  return Place{*positions_begin, *triangles_begin};
+  const auto positions = write_all(output.positions, *scratch_);
+  const auto triangles = write_all(output.triangles, *scratch_);
+  if (!positions || !triangles) return std::nullopt;
+  return Place{*positions, *triangles};
 }
 
 void SurfaceParts::settle() {

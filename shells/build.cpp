@@ -23,9 +23,10 @@
 namespace nacre {
 namespace {
 
-/// Of the volume: what surfaces may hold in memory while they wait.
-constexpr std::size_t kHeldPart = 16;
-constexpr std::size_t kLeastHeldBytes = std::size_t{8} << 20;
+/// What a volume and its surfaces, while they wait, may hold in memory together; and the surfaces
+/// of a larger volume.
+constexpr std::size_t kHeldBytes = std::size_t{64} << 20;
+constexpr std::size_t kLeastHeldBytes = std::size_t{1} << 20;
 
 /// What snapping or compressing a shell takes at its peak, measured (docs/decisions/006).
 constexpr std::size_t kWorkingBytesPerTriangle = 120;
@@ -79,7 +80,8 @@ ExtractedSurfaces extract(const Volume& volume, const BuildOptions& options, con
   for (const Shell& shell : set.shells) values.push_back(shell.value);
   SurfaceStorage storage;
   storage.scratch_folder = options.scratch_folder;
-  storage.memory_bytes = std::max(volume.samples.size() / kHeldPart, kLeastHeldBytes);
+  storage.memory_bytes =
+      std::max(kHeldBytes - std::min(volume.samples.size(), kHeldBytes), kLeastHeldBytes);
   return extract_surfaces(volume, values, storage, options.progress);
 }
 
