@@ -2,7 +2,7 @@
 
 #include <fmt/core.h>
 
-#include <charconv>
+#include <cmath>
 #include <vector>
 
 #include "app/flag_values.h"
@@ -23,7 +23,13 @@ std::vector<Level> levels_of(const ShellFlags& flags, const EmissionMap& emissio
   if (!flags.level_values.empty()) {
     std::vector<double> emissions =
         parse_numbers("--level-values", flags.level_values, 0, "v1,v2,... in the volume's values");
-    for (double& value : emissions) value = emission(value);
+    for (double& value : emissions) {
+      if (!std::isfinite(value)) {
+        throw Error(ErrorCode::BadArgument,
+                    fmt::format("--level-values: found {}, expected finite values", value));
+      }
+      value = emission(value);
+    }
     return explicit_levels(emissions);
   }
   if (!is_count(flags.levels)) {
@@ -77,6 +83,7 @@ CompressedSet build_compressed_set(const ShellFlags& flags, EmissionVolume input
                                    BuildFigures& figures) {
   BuildOptions options = options_of(flags, input.emission, reporter);
   options.scratch_folder = scratch_folder;
+  release_free_memory();
   CompressedSet result;
   result.shells.resize(options.levels.size());
   BuiltShells built = build_shells(std::move(input.volume), input.emission, options,

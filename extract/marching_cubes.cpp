@@ -23,7 +23,7 @@ constexpr std::size_t kLevelsPerSweep = 255;
 /// Slabs a thread should have, so that uneven ones even out; their thickness changes no output.
 constexpr std::size_t kSlabsPerThread = 8;
 /// Thicker slabs need more memory before they are merged, thinner ones sweep more slices twice.
-constexpr std::size_t kThickestSlab = 16;
+constexpr std::size_t kThickestSlab = 8;
 constexpr std::size_t kThinnestSlab = 4;
 
 void check_values(std::span<const double> values) {

@@ -26,7 +26,7 @@ namespace {
 /// What a volume and its surfaces, while they wait, may hold in memory together; and the surfaces
 /// of a larger volume.
 constexpr std::size_t kHeldBytes = std::size_t{64} << 20;
-constexpr std::size_t kLeastHeldBytes = std::size_t{1} << 20;
+constexpr std::size_t kLeastHeldBytes = std::size_t{1} << 18;
 
 /// What snapping or compressing a shell takes at its peak, measured (docs/decisions/006).
 constexpr std::size_t kWorkingBytesPerTriangle = 120;

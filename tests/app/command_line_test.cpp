@@ -73,6 +73,8 @@ TEST_F(Command, WrongUseIsStatusTwo) {
   expect_refusal("reference ball.nii -o a.png --mode average", 2, "max or sum");
   expect_refusal("reference ball.nii -o a.png --colormap jet", 2, "jet");
   expect_refusal("reference ball.nii -o a.png --turntable 5", 2, "%03d");
+  // No picture either, where the figures cannot be written.
+  expect_refusal("reference ball.nii -o a.png --json no/such/folder.json", 2, "cannot be created");
   expect_refusal("reference ball.nii -o a.png --crop 0,99,0,1,0,1", 2, "crop");
   expect_refusal("reference ball.nii -o a.png --threads 0", 2, "threads");
   expect_refusal("reference ball.nii -o no/such/folder/a.png", 2, "cannot be created");
