@@ -59,8 +59,11 @@ void run_exact(const ExactFlags& flags) {
   Reporter reporter(flags.common);
   const ThreadLimit limit(flags.common);
   check_output(flags.picture, flags.camera);
+  refuse_cue(flags.scene, "the exact walk");
+  refuse_tools(flags.scene, "the exact walk");
   CameraOptions camera = camera_options(flags.camera);
-  const ExactPictureOptions options{picture_mode(flags.picture), slab(flags.camera)};
+  const ExactPictureOptions options{.mode = picture_mode(flags.picture),
+                                    .slab = slab(flags.camera)};
 
   Timing timing;
   Stopwatch watch;
@@ -77,7 +80,7 @@ void run_exact(const ExactFlags& flags) {
   for (int view = 0; view < views; ++view) {
     camera.azimuth_rad = start + 2.0 * std::numbers::pi * view / views;
     watch.lap();
-    image = exact_picture(walk, make_camera(camera, sphere), options, reporter.progress());
+    image = exact_picture(walk, make_camera(camera, sphere), options, reporter.progress()).volume;
     timing.frames.push_back(watch.lap());
     if (flags.picture.output.empty()) continue;
     write_picture(image, flags.picture, numbered_name(flags.picture.output, view));
@@ -102,6 +105,7 @@ void add_reference_verb(CLI::App& app, int& /*status*/) {
 
 void add_exact_flags(CLI::App& verb, ExactFlags& flags) {
   add_picture_flags(verb, flags.picture);
+  add_scene_flags(verb, flags.scene);
   add_camera_flags(verb, flags.camera);
   add_volume_reading_flags(verb, flags.volume);
   add_emission_flags(verb, flags.volume);

@@ -3,6 +3,7 @@
 #include "app/camera_flags.h"
 #include "app/command.h"
 #include "app/picture_output.h"
+#include "app/scene_flags.h"
 #include "app/volume_flags.h"
 
 namespace nacre {
@@ -13,6 +14,7 @@ struct ExactFlags {
   VolumeFlags volume;
   CameraFlags camera;
   PictureFlags picture;
+  SceneFlags scene;
 };
 
 void add_exact_flags(CLI::App& verb, ExactFlags& flags);

@@ -60,25 +60,11 @@ std::vector<std::uint32_t> hidden_shells(const DrawFlags& draw, std::size_t shel
   return hidden;
 }
 
-Backend backend_of(const DrawFlags& draw) {
-  if (const auto found = backend(draw.backend)) return *found;
-  throw Error(ErrorCode::BadArgument,
-              fmt::format("--backend: found '{}', expected auto, egl or osmesa", draw.backend));
-}
-
 Views views_of(const ExactFlags& flags, const DrawFlags& draw, const VolumeFacts& volume,
                std::size_t shells) {
   Views views;
-  views.options.mode = picture_mode(flags.picture);
-  views.options.slab = slab(flags.camera);
-  views.options.hidden = hidden_shells(draw, shells);
-  const auto depth = depth_format(draw.depth_buffer);
-  if (!depth) {
-    throw Error(
-        ErrorCode::BadArgument,
-        fmt::format("--depth-buffer: found '{}', expected 16, 24 or 32f", draw.depth_buffer));
-  }
-  views.options.depth = *depth;
+  refuse_tools(flags.scene, "the shell renderer");
+  views.options = render_options(flags, draw, shells);
   const BoundingSphere sphere = bounding_sphere(volume.dims, volume.world_from_voxel);
   CameraOptions camera = camera_options(flags.camera);
   const double start = camera.azimuth_rad;
@@ -97,14 +83,6 @@ std::vector<std::uint32_t> drawn_in_any(const std::vector<Plan>& plans) {
     for (const std::uint32_t shell : shells_drawn(plan)) drawn.insert(shell);
   }
   return {drawn.begin(), drawn.end()};
-}
-
-void say_plan(const Plan& plan, Reporter& reporter) {
-  for (const Pass& pass : plan.passes) reporter.say("draws    " + describe(pass));
-  if (plan.passes.empty()) reporter.say("draws    nothing: the picture is black");
-  for (const LeftOut& left : plan.left_out) {
-    reporter.say(fmt::format("left out {}: {}", left.what, left.why));
-  }
 }
 
 ordered_json figures_of(const GlRenderer& renderer, const ExactFlags& flags, const Plan& plan,
@@ -139,7 +117,7 @@ void draw_views(GlRenderer& renderer, const ExactFlags& flags, const DrawFlags& 
   Stopwatch watch;
   Image image;
   for (std::size_t view = 0; view < plans.size(); ++view) {
-    image = renderer.render(views.cameras[view], plans[view]);
+    image = renderer.render(views.cameras[view], plans[view]).volume;
     timing.frames.push_back(renderer.last_frame().seconds);
     if (flags.picture.output.empty()) continue;
     watch.lap();
@@ -198,6 +176,36 @@ void add_draw_flags(CLI::App& verb, DrawFlags& flags) {
       ->group(group);
   verb.add_flag("--explain", flags.explain, "Print what is drawn and what is left out, and why")
       ->group(group);
+}
+
+Backend backend_of(const DrawFlags& draw) {
+  if (const auto found = backend(draw.backend)) return *found;
+  throw Error(ErrorCode::BadArgument,
+              fmt::format("--backend: found '{}', expected auto, egl or osmesa", draw.backend));
+}
+
+RenderOptions render_options(const ExactFlags& flags, const DrawFlags& draw, std::size_t shells) {
+  RenderOptions options;
+  options.mode = picture_mode(flags.picture);
+  options.slab = slab(flags.camera);
+  options.cue = depth_cue(flags.scene);
+  options.hidden = hidden_shells(draw, shells);
+  const auto depth = depth_format(draw.depth_buffer);
+  if (!depth) {
+    throw Error(
+        ErrorCode::BadArgument,
+        fmt::format("--depth-buffer: found '{}', expected 16, 24 or 32f", draw.depth_buffer));
+  }
+  options.depth = *depth;
+  return options;
+}
+
+void say_plan(const Plan& plan, Reporter& reporter) {
+  for (const Pass& pass : plan.passes) reporter.say("draws    " + describe(pass));
+  if (plan.passes.empty()) reporter.say("draws    nothing: the picture is black");
+  for (const LeftOut& left : plan.left_out) {
+    reporter.say(fmt::format("left out {}: {}", left.what, left.why));
+  }
 }
 
 void run_shell_file(const ExactFlags& flags, const DrawFlags& draw) {

@@ -1,4 +1,5 @@
 // What a build without the shell tools says where one with them works.
+#include "app/error_explaining.h"
 #include "app/shell_building.h"
 #include "core/error.h"
 
@@ -21,6 +22,11 @@ ShellSet build_shell_set(const ShellFlags& /*flags*/, EmissionVolume /*input*/,
 CompressedSet build_compressed_set(const ShellFlags& /*flags*/, EmissionVolume /*input*/,
                                    const std::filesystem::path& /*scratch_folder*/,
                                    Reporter& /*reporter*/, BuildFigures& /*figures*/) {
+  refuse();
+}
+
+ExplainedError explain_error(const ExplainFlags& /*flags*/, std::optional<Image> /*picture*/,
+                             Reporter& /*reporter*/) {
   refuse();
 }
 

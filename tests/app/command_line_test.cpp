@@ -194,6 +194,15 @@ class ShellCommand : public Command {
   }
 };
 
+TEST_F(ShellCommand, BuildRefusesWhatIsNoTolerance) {
+  const std::string build = "build ball.nii --window 0,28 -o b.glb ";
+  expect_refusal(build + "--tolerance nan", 2, "found nan, expected an emission");
+  expect_refusal(build + "--tolerance 2", 2, "found 2, expected an emission");
+  expect_refusal(build + "--tolerance-mm nan", 2, "found nan, expected millimetres");
+  expect_refusal(build + "--tolerance-mm -1", 2, "found -1, expected millimetres");
+  expect_refusal(build + "--level-values 3,nan", 2, "found nan, expected finite values");
+}
+
 TEST_F(ShellCommand, BuildTellsItsFigures) {
   const CommandResult result =
       nacre("build ball.nii --window 0,28 --levels 0.25,0.5,0.75 -o b.glb --json -");

@@ -102,7 +102,7 @@ TEST_P(RealScan, AgreesWithAnIndependentMarch) {
     const Camera camera =
         make_camera(options, bounding_sphere(volume.dims, volume.world_from_voxel));
     for (const PictureMode mode : {PictureMode::Max, PictureMode::Sum}) {
-      const Image exact = exact_picture(walk, camera, {.mode = mode});
+      const Image exact = exact_picture(walk, camera, {.mode = mode}).volume;
       const Image marched = marched_picture(march, camera, mode);
       const double psnr = psnr_db(marched, exact);
       if (thorough())
@@ -141,7 +141,8 @@ TEST(RealVolumes, NrrdAndNiftiOfOneScanGiveOnePicture) {
     const Volume volume = read_volume(path).volume;
     return exact_picture(ExactWalk(volume, emission),
                          make_camera({.size = {64, 64}, .azimuth_rad = 0.5},
-                                     bounding_sphere(volume.dims, volume.world_from_voxel)));
+                                     bounding_sphere(volume.dims, volume.world_from_voxel)))
+        .volume;
   };
   // NIfTI states its geometry in float: seven digits.
   const Image a = picture(nrrd);
