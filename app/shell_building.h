@@ -1,10 +1,13 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
+#include <vector>
 
 #include "app/command.h"
 #include "app/volume_flags.h"
 #include "core/shell_set.h"
+#include "io/shell_writer.h"
 
 namespace nacre {
 
@@ -26,6 +29,7 @@ struct BuildFigures {
   double emission = 0.0;
   double extract = 0.0;
   double simplify = 0.0;
+  double encode = 0.0;
   std::size_t extracted_triangles = 0;
 };
 
@@ -34,5 +38,17 @@ struct BuildFigures {
 ///                shell tools
 ShellSet build_shell_set(const ShellFlags& flags, EmissionVolume input, Reporter& reporter,
                          BuildFigures& figures);
+
+/// A set whose surfaces are compressed already.
+struct CompressedSet {
+  ShellSet set;  ///< without surfaces
+  std::vector<CompressedShell> shells;
+};
+
+/// The same, each shell compressed when it is finished: never all of them in memory at once.
+/// @param scratch_folder  where surfaces wait for their turn, see `BuildOptions`
+CompressedSet build_compressed_set(const ShellFlags& flags, EmissionVolume input,
+                                   const std::filesystem::path& scratch_folder, Reporter& reporter,
+                                   BuildFigures& figures);
 
 }  // namespace nacre

@@ -19,6 +19,12 @@ ShellSet build_shell_set(const ShellFlags& /*flags*/, EmissionVolume /*input*/,
   refuse();
 }
 
+CompressedSet build_compressed_set(const ShellFlags& /*flags*/, EmissionVolume /*input*/,
+                                   const std::filesystem::path& /*scratch_folder*/,
+                                   Reporter& /*reporter*/, BuildFigures& /*figures*/) {
+  refuse();
+}
+
 ExplainedError explain_error(const ExplainFlags& /*flags*/, std::optional<Image> /*picture*/,
                              Reporter& /*reporter*/) {
   refuse();

@@ -80,6 +80,8 @@ TEST_F(Command, WrongUseIsStatusTwo) {
   expect_refusal("reference ball.nii --turntable 2 --colormap jet", 2, "viridis");
   expect_refusal("reference ball.nii -o a.png --cue 1,2", 2, "A,B,BETA0");
   expect_refusal("reference ball.nii -o a.png --cue -2,1,0", 2, "depth cue");
+  // No picture either, where the figures cannot be written.
+  expect_refusal("reference ball.nii -o a.png --json no/such/folder.json", 2, "cannot be created");
   expect_refusal("reference ball.nii -o a.png --crop 0,99,0,1,0,1", 2, "crop");
   expect_refusal("reference ball.nii -o a.png --threads 0", 2, "threads");
   expect_refusal("reference ball.nii -o no/such/folder/a.png", 2, "cannot be created");
@@ -236,6 +238,15 @@ class ShellCommand : public Command {
     }
   }
 };
+
+TEST_F(ShellCommand, BuildRefusesWhatIsNoTolerance) {
+  const std::string build = "build ball.nii --window 0,28 -o b.glb ";
+  expect_refusal(build + "--tolerance nan", 2, "found nan, expected an emission");
+  expect_refusal(build + "--tolerance 2", 2, "found 2, expected an emission");
+  expect_refusal(build + "--tolerance-mm nan", 2, "found nan, expected millimetres");
+  expect_refusal(build + "--tolerance-mm -1", 2, "found -1, expected millimetres");
+  expect_refusal(build + "--level-values 3,nan", 2, "found nan, expected finite values");
+}
 
 TEST_F(ShellCommand, BuildTellsItsFigures) {
   const CommandResult result =
