@@ -216,8 +216,8 @@ int run_compare(const CompareFlags& flags) {
 void add_compare_verb(CLI::App& app, int& status) {
   CLI::App* verb = app.add_subcommand("compare", "The error of a picture against another");
   verb->footer(
-      "Examples: nacre compare shells.tif exact.tif -o difference.png --min-psnr 45\n"
-      "          nacre compare --explain-error head.glb --volume head.nii.gz --azimuth 30");
+      "Example: nacre compare shells.tif exact.tif -o difference.png --min-psnr 45\n"
+      "         nacre compare --explain-error head.glb --volume head.nii.gz --azimuth 30");
   auto flags = std::make_shared<CompareFlags>();
   verb->add_option("PICTURE", flags->picture, "Picture to judge (.tif, or a gray .png)");
   verb->add_option("TRUTH", flags->truth, "Picture it is judged against");

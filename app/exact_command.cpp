@@ -10,11 +10,11 @@
 #include <utility>
 #include <vector>
 
+#include "app/exact_scene.h"
 #include "app/thread_limit.h"
 #include "app/turntable_output.h"
-#include "core/error.h"
 #include "core/volume_geometry.h"
-#include "reference/exact_picture.h"
+#include "reference/exact_walk.h"
 
 namespace nacre {
 namespace {
@@ -28,7 +28,7 @@ struct Timing {
   double write = 0.0;
 };
 
-ordered_json figures(const ExactFlags& flags, const EmissionVolume& input,
+ordered_json figures(const ExactFlags& flags, const EmissionVolume& input, const ExactScene& scene,
                      const TurntableResult& result, const Timing& timing) {
   const Image& image = result.last.volume;
   const auto [least, greatest] = std::minmax_element(image.pixels.begin(), image.pixels.end());
@@ -40,6 +40,7 @@ ordered_json figures(const ExactFlags& flags, const EmissionVolume& input,
   json["picture"] = {
       {"width", image.width}, {"height", image.height}, {"least", *least}, {"greatest", *greatest}};
   if (result.window) json["display"] = {result.window->lo, result.window->hi};
+  if (scene.shows_shells()) json["levels"] = scene.level_figures();
   json["passes"] = {"walk every ray"};
   json["left_out"] = ordered_json::array();
   json["triangles_drawn"] = 0;
@@ -50,15 +51,6 @@ ordered_json figures(const ExactFlags& flags, const EmissionVolume& input,
                      {"write", timing.write}};
   json["peak_rss_bytes"] = peak_rss_bytes();
   return json;
-}
-
-void check_mode(const PictureFlags& flags) {
-  const PictureMode mode = picture_mode(flags);
-  if (mode == PictureMode::Max || mode == PictureMode::Sum) return;
-  throw Error(ErrorCode::Unsupported,
-              fmt::format("--mode: found {}, which is a picture of shells, expected max or sum for "
-                          "the exact walk",
-                          flags.mode));
 }
 
 /// Median of frame times, for the line that is said.
@@ -73,16 +65,13 @@ void run_exact(const ExactFlags& flags) {
   Reporter reporter(flags.common);
   const ThreadLimit limit(flags.common);
   check_output(flags.picture, flags.camera);
-  refuse_cue(flags.scene, "the exact walk");
-  refuse_tools(flags.scene, "the exact walk");
   CameraOptions camera = camera_options(flags.camera);
-  check_mode(flags.picture);
-  const ExactPictureOptions options{.mode = picture_mode(flags.picture),
-                                    .slab = slab(flags.camera)};
 
   Timing timing;
   Stopwatch watch;
+  ExactScene scene(flags);
   const EmissionVolume input = read_emission_volume(flags.volume, reporter);
+  scene.set_emission(input.emission);
   timing.load = watch.lap();
   const BoundingSphere sphere = bounding_sphere(input.volume.dims, input.volume.world_from_voxel);
   make_camera(camera, sphere);  // refuses what cannot be, before the work
@@ -95,19 +84,19 @@ void run_exact(const ExactFlags& flags) {
   const auto draw = [&](int view) {
     camera.azimuth_rad = start + 2.0 * std::numbers::pi * view / views;
     watch.lap();
-    Picture picture =
-        exact_picture(walk, make_camera(camera, sphere), options, reporter.progress());
+    Picture picture = scene.draw(walk, make_camera(camera, sphere), reporter.progress());
     timing.frames[static_cast<std::size_t>(view)] = watch.lap();
     return picture;
   };
-  const TurntableResult result = write_views(flags.picture, {.views = views}, draw);
+  const TurntableResult result =
+      write_views(flags.picture, {.views = views, .tools = !flags.scene.tools.empty()}, draw);
   timing.write = result.write_seconds;
   const Image& image = result.last.volume;
   reporter.say(fmt::format("{} {} of {} x {} pixels, {:.1f} ms a frame (exact){}{}", views,
                            views == 1 ? "picture" : "pictures", image.width, image.height,
                            1e3 * median(timing.frames), flags.picture.output.empty() ? "" : " -> ",
                            flags.picture.output));
-  reporter.finish(figures(flags, input, result, timing));
+  reporter.finish(figures(flags, input, scene, result, timing));
 }
 
 void add_reference_verb(CLI::App& app, int& /*status*/) {
@@ -117,6 +106,11 @@ void add_reference_verb(CLI::App& app, int& /*status*/) {
   verb->add_option("VOLUME", flags->volume.path, "Volume file, or folder of a DICOM series")
       ->required();
   add_exact_flags(*verb, *flags);
+  add_level_flags(*verb, flags->levels);
+  verb->add_flag("--ideal", flags->ideal,
+                 "Show ideal shells at the levels in max and sum: no error of triangles, depth or "
+                 "quantisation")
+      ->group("Shells");
   verb->callback([flags] { run_exact(*flags); });
 }
 

@@ -2,6 +2,7 @@
 
 #include "app/camera_flags.h"
 #include "app/command.h"
+#include "app/level_flags.h"
 #include "app/picture_output.h"
 #include "app/scene_flags.h"
 #include "app/volume_flags.h"
@@ -15,8 +16,11 @@ struct ExactFlags {
   CameraFlags camera;
   PictureFlags picture;
   SceneFlags scene;
+  LevelFlags levels;   ///< of count, iso and ideal shells
+  bool ideal = false;  ///< ideal shells in place of the volume itself
 };
 
+/// Adds all but the flags of levels, which some verbs share with those of shells, and --ideal.
 void add_exact_flags(CLI::App& verb, ExactFlags& flags);
 
 /// Reads, walks, writes, and says what it took.

@@ -47,7 +47,9 @@ void run_render(const RenderFlags& flags) {
     run_shells_of_volume(flags.exact, flags.draw, flags.shells);
   } else {
     // For one picture of a volume at hand the exact walk is done before shells are built.
-    run_exact(flags.exact);
+    ExactFlags exact = flags.exact;
+    exact.levels = flags.shells;
+    run_exact(exact);
   }
 }
 

@@ -150,17 +150,4 @@ std::vector<Tool> read_tools(const SceneFlags& flags) {
   return tools;
 }
 
-void refuse_cue(const SceneFlags& flags, const std::string& what) {
-  const DepthCue cue = depth_cue(flags);
-  if (is_flat(cue) && beta(cue, 0.0) == 1.0) return;
-  throw Error(ErrorCode::Unsupported,
-              fmt::format("--cue: found {}, which draws none yet, expected no cue", what));
-}
-
-void refuse_tools(const SceneFlags& flags, const std::string& what) {
-  if (flags.tools.empty()) return;
-  throw Error(ErrorCode::Unsupported,
-              fmt::format("--tool: found {}, which draws none yet, expected no tool", what));
-}
-
 }  // namespace nacre

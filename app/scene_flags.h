@@ -33,13 +33,4 @@ DepthCue depth_cue(const SceneFlags& flags);
 /// @throws Error  BadArgument for options that are wrong, BadFile for files that are
 std::vector<Tool> read_tools(const SceneFlags& flags);
 
-// Where cues or tools cannot be drawn yet they are refused, never left out without a word.
-
-/// @param what    the verb or method, for the message
-/// @throws Error  Unsupported for a cue that is not 1 everywhere
-void refuse_cue(const SceneFlags& flags, const std::string& what);
-
-/// @throws Error  Unsupported if there are any
-void refuse_tools(const SceneFlags& flags, const std::string& what);
-
 }  // namespace nacre

@@ -2,52 +2,17 @@
 
 #include <fmt/core.h>
 
-#include <cmath>
 #include <vector>
 
-#include "app/flag_values.h"
-#include "core/error.h"
-#include "extract/levels.h"
 #include "shells/build.h"
 
 namespace nacre {
 namespace {
 
-/// "24" is a count; "0.2", "1" with other numbers and anything with a comma or a point are
-/// emissions.
-bool is_count(const std::string& text) {
-  return text.find_first_not_of("0123456789") == std::string::npos;
-}
-
-std::vector<Level> levels_of(const ShellFlags& flags, const EmissionMap& emission) {
-  if (!flags.level_values.empty()) {
-    std::vector<double> emissions =
-        parse_numbers("--level-values", flags.level_values, 0, "v1,v2,... in the volume's values");
-    for (double& value : emissions) {
-      if (!std::isfinite(value)) {
-        throw Error(ErrorCode::BadArgument,
-                    fmt::format("--level-values: found {}, expected finite values", value));
-      }
-      value = emission(value);
-    }
-    return explicit_levels(emissions);
-  }
-  if (!is_count(flags.levels)) {
-    return explicit_levels(parse_numbers("--levels", flags.levels, 0, "N or t1,t2,..."));
-  }
-  constexpr long long kMostLevels = 1000;
-  const long long count = parse_integers("--levels", flags.levels, 1, "N or t1,t2,...").front();
-  if (count < 1 || count > kMostLevels) {
-    throw Error(ErrorCode::BadArgument,
-                fmt::format("--levels: found {}, expected 1 to {}", count, kMostLevels));
-  }
-  return uniform_levels(static_cast<std::size_t>(count));
-}
-
 BuildOptions options_of(const ShellFlags& flags, const EmissionMap& emission, Reporter& reporter) {
   BuildOptions options;
   options.levels = levels_of(flags, emission);
-  options.placement = is_count(flags.levels) && flags.level_values.empty() ? "uniform" : "explicit";
+  options.placement = are_placed(flags) ? "uniform" : "explicit";
   options.emission_tolerance = flags.tolerance;
   options.tolerance_mm = flags.tolerance_mm;
   options.quantization_bits = flags.quantization;

@@ -1,10 +1,10 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
 #include <vector>
 
 #include "app/command.h"
+#include "app/level_flags.h"
 #include "app/volume_flags.h"
 #include "core/shell_set.h"
 #include "io/shell_writer.h"
@@ -12,16 +12,13 @@
 namespace nacre {
 
 /// Which shells to make of a volume, as flags say it.
-struct ShellFlags {
-  std::string levels = "24";  ///< a count, or emissions "t1,t2,..."
-  std::string level_values;   ///< "v1,v2,..." in the volume's values
-  std::string placement = "uniform";
+struct ShellFlags : LevelFlags {
   double tolerance = 0.0;     ///< emission; 0: none
   double tolerance_mm = 0.0;  ///< mm; 0: none
   int quantization = 0;       ///< bits; 0: chosen
 };
 
-/// Adds --levels, --level-values, --placement, --tolerance, --tolerance-mm and --quantization.
+/// Adds the flags of levels, --tolerance, --tolerance-mm and --quantization.
 void add_shell_flags(CLI::App& verb, ShellFlags& flags);
 
 /// What building took, in seconds, and how many triangles there were before simplification.

@@ -25,17 +25,7 @@ CLI::Validator finite_from_zero(double most, const char* expected) {
 
 void add_shell_flags(CLI::App& verb, ShellFlags& flags) {
   const std::string group = "Shells";
-  auto* levels = verb.add_option("--levels", flags.levels,
-                                 "N levels, or emissions t1,t2,... from above 0 to 1")
-                     ->capture_default_str()
-                     ->group(group);
-  verb.add_option("--level-values", flags.level_values, "v1,v2,... in the volume's values")
-      ->excludes(levels)
-      ->group(group);
-  verb.add_option("--placement", flags.placement, "Where N levels are put")
-      ->check(CLI::IsMember({"uniform"}))
-      ->capture_default_str()
-      ->group(group);
+  add_level_flags(verb, flags);
   verb.add_option("--tolerance", flags.tolerance,
                   "Emission error a simplified surface may have (0: no simplification)")
       ->check(finite_from_zero(1.0, "an emission from 0 to 1"))

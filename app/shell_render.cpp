@@ -6,7 +6,9 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <numbers>
+#include <optional>
 #include <set>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -62,10 +64,18 @@ std::vector<std::uint32_t> hidden_shells(const DrawFlags& draw, std::size_t shel
   return hidden;
 }
 
+/// What a flag names, if it names anything.
+template <class Value>
+Value value_of(std::string_view flag, const std::optional<Value>& value, std::string_view found,
+               std::string_view expected) {
+  if (value) return *value;
+  throw Error(ErrorCode::BadArgument,
+              fmt::format("{}: found '{}', expected {}", flag, found, expected));
+}
+
 Views views_of(const ExactFlags& flags, const DrawFlags& draw, const VolumeFacts& volume,
                std::size_t shells) {
   Views views;
-  refuse_tools(flags.scene, "the shell renderer");
   views.options = render_options(flags, draw, shells);
   const BoundingSphere sphere = bounding_sphere(volume.dims, volume.world_from_voxel);
   CameraOptions camera = camera_options(flags.camera);
@@ -85,6 +95,15 @@ std::vector<std::uint32_t> drawn_in_any(const std::vector<Plan>& plans) {
     for (const std::uint32_t shell : shells_drawn(plan)) drawn.insert(shell);
   }
   return {drawn.begin(), drawn.end()};
+}
+
+/// Copies to the context what any of the plans needs.
+void upload(GlRenderer& renderer, const ShellSet& set, const SceneFacts& facts,
+            std::span<const Tool> tools, const std::vector<Plan>& plans) {
+  const bool normals =
+      std::any_of(plans.begin(), plans.end(), [](const Plan& plan) { return plan.normals; });
+  renderer.upload(set, facts, drawn_in_any(plans), {.normals = normals});
+  renderer.upload_tools(tools);
 }
 
 ordered_json figures_of(const GlRenderer& renderer, const ExactFlags& flags, const Plan& plan,
@@ -150,8 +169,8 @@ std::vector<Plan> plans_for(const SceneFacts& facts, const Views& views,
   return plans;
 }
 
-/// A file's facts, without decoding it.
-SceneFacts facts_of(const ShellFileInfo& info) {
+/// A file's facts, without decoding it, and those of the tools.
+SceneFacts facts_of(const ShellFileInfo& info, std::span<const Tool> tools) {
   SceneFacts facts;
   facts.center_mm = info.set.center_mm;
   for (std::size_t i = 0; i < info.levels.size(); ++i) {
@@ -160,6 +179,7 @@ SceneFacts facts_of(const ShellFileInfo& info) {
                             level.triangles,
                             {glm::dvec3(level.lo_mm), glm::dvec3(level.hi_mm)}});
   }
+  for (const Tool& tool : tools) facts.tools.push_back(tool_facts(tool, facts.center_mm));
   return facts;
 }
 
@@ -171,6 +191,14 @@ void add_draw_flags(CLI::App& verb, DrawFlags& flags) {
       ->capture_default_str()
       ->group(group);
   verb.add_option("--depth-buffer", flags.depth_buffer, "16, 24 or 32f")
+      ->capture_default_str()
+      ->group(group);
+  verb.add_option("--target", flags.target, "8, 16f or 32f: where sums and counts add up")
+      ->capture_default_str()
+      ->group(group);
+  verb.add_option("--occlusion", flags.occlusion,
+                  "How tools hide what is behind them in a maximum: passes, texture, or auto, the "
+                  "cheaper one that is exact")
       ->capture_default_str()
       ->group(group);
   auto* hide = verb.add_option("--hide", flags.hide,
@@ -195,13 +223,11 @@ RenderOptions render_options(const ExactFlags& flags, const DrawFlags& draw, std
   options.slab = slab(flags.camera);
   options.cue = depth_cue(flags.scene);
   options.hidden = hidden_shells(draw, shells);
-  const auto depth = depth_format(draw.depth_buffer);
-  if (!depth) {
-    throw Error(
-        ErrorCode::BadArgument,
-        fmt::format("--depth-buffer: found '{}', expected 16, 24 or 32f", draw.depth_buffer));
-  }
-  options.depth = *depth;
+  options.depth = value_of("--depth-buffer", depth_format(draw.depth_buffer), draw.depth_buffer,
+                           "16, 24 or 32f");
+  options.target = value_of("--target", target_format(draw.target), draw.target, "8, 16f or 32f");
+  options.occlusion =
+      value_of("--occlusion", occlusion(draw.occlusion), draw.occlusion, "auto, passes or texture");
   return options;
 }
 
@@ -220,12 +246,13 @@ void run_shell_file(const ExactFlags& flags, const DrawFlags& draw) {
   const Backend wanted_backend = backend_of(draw);
   Timing timing;
   Stopwatch watch;
+  const std::vector<Tool> tools = read_tools(flags.scene);
   const ShellFileInfo info = read_shell_file_info(flags.volume.path);
   const Views views = views_of(flags, draw, info.set.volume, info.levels.size());
   timing.load = watch.lap();
   GlRenderer renderer(wanted_backend);
   timing.upload = watch.lap();
-  const SceneFacts facts = facts_of(info);
+  const SceneFacts facts = facts_of(info, tools);
   const std::vector<Plan> plans = plans_for(facts, views, renderer);
   const std::vector<std::uint32_t> drawn = drawn_in_any(plans);
   timing.plan = watch.lap();
@@ -235,7 +262,7 @@ void run_shell_file(const ExactFlags& flags, const DrawFlags& draw) {
            [&](std::size_t shell) { return std::binary_search(drawn.begin(), drawn.end(), shell); },
        .progress = reporter.progress()});
   timing.load += watch.lap();
-  renderer.upload(set, facts, drawn);
+  upload(renderer, set, facts, tools, plans);
   timing.upload += watch.lap();
   draw_views(renderer, flags, draw, views, plans, timing, reporter);
 }
@@ -248,6 +275,7 @@ void run_shells_of_volume(const ExactFlags& flags, const DrawFlags& draw,
   const Backend wanted_backend = backend_of(draw);
   Timing timing;
   Stopwatch watch;
+  const std::vector<Tool> tools = read_tools(flags.scene);
   EmissionVolume input = read_emission_volume(flags.volume, reporter);
   BuildFigures figures;
   const ShellSet set = build_shell_set(shells, std::move(input), reporter, figures);
@@ -255,10 +283,10 @@ void run_shells_of_volume(const ExactFlags& flags, const DrawFlags& draw,
   timing.load = watch.lap();
   GlRenderer renderer(wanted_backend);
   timing.upload = watch.lap();
-  const SceneFacts facts = scene_facts(set);
+  const SceneFacts facts = scene_facts(set, tools);
   const std::vector<Plan> plans = plans_for(facts, views, renderer);
   timing.plan = watch.lap();
-  renderer.upload(set, facts, drawn_in_any(plans));
+  upload(renderer, set, facts, tools, plans);
   timing.upload += watch.lap();
   draw_views(renderer, flags, draw, views, plans, timing, reporter);
 }

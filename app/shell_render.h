@@ -15,12 +15,14 @@ namespace nacre {
 struct DrawFlags {
   std::string backend = "auto";
   std::string depth_buffer = "32f";
+  std::string target = "32f";
+  std::string occlusion = "auto";
   std::string hide;  ///< shells, counted from 1, outermost first
   std::string only;
   bool explain = false;
 };
 
-/// Adds --backend, --depth-buffer, --hide, --only and --explain.
+/// Adds --backend, --depth-buffer, --target, --occlusion, --hide, --only and --explain.
 void add_draw_flags(CLI::App& verb, DrawFlags& flags);
 
 /// @throws Error  BadArgument for what the flags cannot mean

@@ -160,11 +160,17 @@ TEST_F(Command, TurntableShowsASumWithOneWindow) {
   EXPECT_NEAR(json::parse(all.output)["display"][1].get<double>(), largest, 1e-6 * largest);
 }
 
-TEST_F(Command, ModesOfShellsAreNoneOfTheExactWalk) {
-  for (const char* mode : {"count", "iso"}) {
-    expect_refusal(std::string("reference ball.nii -o a.png --mode ") + mode, 4, mode);
-    expect_refusal(std::string("render ball.nii --method exact -o a.png --mode ") + mode, 4, mode);
-  }
+// Through the middle of a ball a ray crosses its one shell twice, and meets it face on.
+TEST_F(Command, TheExactWalkShowsShellsToo) {
+  const std::string exact = "reference ball.nii --window 0,28 --levels 0.5 --size 33x33 ";
+  const auto middle = [&](const std::string& flags) {
+    EXPECT_EQ(nacre(exact + flags + " -o a.tif").status, 0) << flags;
+    return read_picture(folder_.path() / "a.tif").image.at(16, 16);
+  };
+  EXPECT_FLOAT_EQ(middle("--mode count"), 2.0f);
+  EXPECT_NEAR(middle("--mode iso"), 1.0f, 0.05f);
+  EXPECT_FLOAT_EQ(middle("--mode max --ideal"), 1.0f);
+  expect_refusal("reference ball.nii -o b.png --mode iso --levels 0", 2, "--levels");
 }
 
 TEST_F(Command, EveryColourMapIsListedAndWorks) {

@@ -5,6 +5,8 @@
 
 #include <set>
 
+#include "io/picture_file.h"
+#include "io/png_picture.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/run_command.h"
 #include "tests/support/scratch_folder.h"
@@ -128,16 +130,53 @@ TEST_F(SceneCommand, InfoRefusesADamagedToolWithStatusThree) {
   EXPECT_NE(result.errors.find("b.stl: found"), std::string::npos) << result.errors;
 }
 
-// Left out without a word, a tool or a cue would be missed.
-TEST_F(SceneCommand, WhatCannotBeDrawnYetIsRefused) {
-  ASSERT_EQ(nacre("phantom spheres --size 12,12,12 -o ball.nii").status, 0);
-  for (const char* flags : {"--tool a.off", "--cue 0.5,0.5,0"}) {
-    const auto result = nacre(std::string("reference ball.nii -o a.png ") + flags);
-    EXPECT_EQ(result.status, 4) << flags << "\n" << result.errors;
-    EXPECT_FALSE(std::filesystem::exists(folder_.path() / "a.png"));
+/// A command with a volume and a tool, seen from the front.
+class PictureCommand : public SceneCommand {
+ protected:
+  void SetUp() override {
+    SceneCommand::SetUp();
+    if (IsSkipped()) return;
+    ASSERT_EQ(nacre("phantom spheres --size 12,12,12 -o ball.nii").status, 0);
+    // A square before the volume's right half (LPS: x < 0), and its name holds no comma.
+    folder_.write("square.off",
+                  "OFF\n4 1 4\n-50 -50 -50\n0 -50 -50\n0 -50 50\n-50 -50 50\n4 0 1 2 3\n");
   }
-  EXPECT_EQ(nacre("reference ball.nii -o a.png --cue 0,1,0").status, 0);
-  EXPECT_EQ(nacre("reference ball.nii -o a.png --cue 0.5").status, 2);
+
+  static constexpr const char* kView = " --window 0,28 --size 32x32 --look-at 0,0,0 --zoom 0.8 ";
+};
+
+TEST_F(PictureCommand, ToolsCutOffTheVolumeAndColourThePng) {
+  for (const char* mode : {"max", "sum"}) {
+    const std::string exact = std::string("reference ball.nii --mode ") + mode + kView;
+    ASSERT_EQ(nacre(exact + "-o bare.tif").status, 0);
+    ASSERT_EQ(nacre(exact + "-o cut.tif --tool square.off").status, 0);
+    ASSERT_EQ(nacre(exact + "-o cut.png --tool square.off,color=#0000ff").status, 0);
+    const Image bare = read_picture(folder_.path() / "bare.tif").image;
+    const Image cut = read_picture(folder_.path() / "cut.tif").image;
+    const DisplayImage shown = read_png(folder_.path() / "cut.png");
+    ASSERT_EQ(shown.channels, 3);
+    int hidden = 0;
+    for (std::size_t i = 0; i < bare.pixels.size(); ++i) {
+      const bool tool = shown.pixels[3 * i + 2] > shown.pixels[3 * i];  // bluer than red
+      EXPECT_EQ(cut.pixels[i], tool ? 0.0f : bare.pixels[i]) << mode << ", pixel " << i;
+      if (tool && bare.pixels[i] > 0.0f) ++hidden;
+    }
+    EXPECT_GT(hidden, 10) << mode;
+  }
+}
+
+TEST_F(PictureCommand, CueDarkensWhatIsFar) {
+  const std::string exact = std::string("reference ball.nii") + kView;
+  ASSERT_EQ(nacre(exact + "-o bare.tif").status, 0);
+  ASSERT_EQ(nacre(exact + "-o flat.tif --cue 0,0.4,0.1").status, 0);
+  ASSERT_EQ(nacre(exact + "-o none.tif --cue 0,1,0").status, 0);
+  EXPECT_EQ(testing::read_bytes(folder_.path() / "bare.tif"),
+            testing::read_bytes(folder_.path() / "none.tif"));
+  const Image bare = read_picture(folder_.path() / "bare.tif").image;
+  const Image flat = read_picture(folder_.path() / "flat.tif").image;
+  for (std::size_t i = 0; i < bare.pixels.size(); ++i) {
+    EXPECT_NEAR(flat.pixels[i], 0.5f * bare.pixels[i], 1e-6f);
+  }
 }
 
 TEST(SceneFlags, WithoutTheToolReaderAreStatusFour) {
