@@ -33,8 +33,8 @@ class AtomicFile {
   void write(std::span<const std::byte> bytes);
   void write(std::string_view text);
 
-  /// Flushes, names and closes, but under the temporary name: `commit` is then only the renaming. So
-  /// many files can be written before the first of them appears.
+  /// Flushes, names and closes, but under the temporary name: `commit` is then only the renaming.
+  /// So many files can be written before the first of them appears.
   /// @throws Error  Unsupported if the last bytes cannot be written
   void close();
 
