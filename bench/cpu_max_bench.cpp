@@ -130,7 +130,7 @@ template <class Renderer>
 void shell_frames(benchmark::State& state, const Scene& scene, int levels, Renderer& renderer) {
   LoadedScene& data = loaded(scene);
   renderer.upload(data.shells(levels));
-  frames(state, data, [&](const Camera& camera) { return renderer.render(camera); });
+  frames(state, data, [&](const Camera& camera) { return renderer.render(camera).volume; });
   std::size_t triangles = 0;
   for (const Shell& shell : data.shells(levels).shells) triangles += shell.surface.triangles.size();
   state.counters["triangles"] = static_cast<double>(triangles);

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
@@ -26,28 +27,43 @@ struct ClusterProjection {
   glm::vec4 row_x{0.0F};  ///< rows of `clip_from_local`
   glm::vec4 row_y{0.0F};
   glm::vec4 row_w{0.0F};
+  glm::vec4 row_z{0.0F};      ///< depth z as in `depth_z`; without perspective only
+  glm::vec2 z_of_w{0.0F};     ///< z = x + y w; perspective only
   glm::vec3 view_from{0.0F};  ///< viewing direction, or the eye (perspective), local
   float near_mm = 0.0F;       ///< of the near plane; perspective only
   bool perspective = false;
 };
 
-/// Pixels of one thread, the greatest rank seen in each.
-template <class Rank>
-struct RankTarget {
-  Rank* pixels = nullptr;
+/// Pixels of one thread: the greatest brightness seen in each.
+template <class Pixel>
+struct PixelTarget {
+  Pixel* pixels = nullptr;
   int width = 0;
   int height = 0;
 };
 
-/// Some clusters of one shell, to be drawn with one rank.
-template <class Rank>
+/// What a shell shines with: a rank, the same everywhere, ...
+template <class Pixel>
+struct Brightness {
+  Pixel rank = 0;
+};
+
+/// ... or an emission that goes linearly with depth z from `at_near` (z = 1) to `at_far` (z = 0).
+template <>
+struct Brightness<float> {
+  float at_near = 0.0F;
+  float at_far = 0.0F;
+};
+
+/// Some clusters of one shell, to be drawn alike.
+template <class Pixel>
 struct ClusterDraw {
   const Cluster* clusters = nullptr;  ///< the first; the arrays are those of `MeshClusters`
   std::size_t count = 0;
   const float* positions = nullptr;
   const std::uint8_t* corners = nullptr;
   Faces faces = Faces::Front;
-  Rank rank = 0;
+  Brightness<Pixel> brightness;
 };
 
 /// What a kernel left, and what it did.
@@ -59,15 +75,16 @@ struct KernelResult {
 /// Draws clusters: rejects what is outside the target or turned away, projects, rounds to
 /// sub-pixels, and covers the pixel centres inside each triangle, those on its upper and left edges
 /// included. All in integers after rounding: triangles that share an edge cover no centre on it
-/// twice, and none is left out.
+/// twice, and none is left out. Pixels are bytes, words (ranks) or floats (emission with a cue, at
+/// the depth of the pixel's centre on the triangle's plane).
 ///
 /// Clusters that reach the near plane or are larger than `kKernelSide` are not drawn but listed.
 ///
 /// @param too_large  room for `draw.count` indices of clusters
-template <class Rank>
-using DrawClusters = KernelResult (*)(const ClusterDraw<Rank>& draw,
+template <class Pixel>
+using DrawClusters = KernelResult (*)(const ClusterDraw<Pixel>& draw,
                                       const ClusterProjection& projection,
-                                      const RankTarget<Rank>& target, std::uint32_t* too_large);
+                                      const PixelTarget<Pixel>& target, std::uint32_t* too_large);
 
 /// Instruction sets a kernel is compiled for; all draw the same pixels.
 enum class InstructionSet { Baseline, Avx2 };
@@ -77,7 +94,13 @@ InstructionSet best_instruction_set() noexcept;
 
 /// The kernel for a set.
 /// @pre  the processor has it
-template <class Rank>
-DrawClusters<Rank> draw_clusters_for(InstructionSet set) noexcept;
+template <class Pixel>
+DrawClusters<Pixel> draw_clusters_for(InstructionSet set) noexcept;
+template <>
+DrawClusters<std::uint8_t> draw_clusters_for(InstructionSet set) noexcept;
+template <>
+DrawClusters<std::uint16_t> draw_clusters_for(InstructionSet set) noexcept;
+template <>
+DrawClusters<float> draw_clusters_for(InstructionSet set) noexcept;
 
 }  // namespace nacre

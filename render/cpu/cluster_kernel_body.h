@@ -91,10 +91,10 @@ inline Ints edge_bias(const Shorts& edge) {
 }
 
 /// What lanes share while a shell is drawn.
-template <class Rank>
+template <class Pixel>
 struct Kernel {
   const ClusterProjection& projection;
-  const RankTarget<Rank>& target;
+  const PixelTarget<Pixel>& target;
   float half_width;
   float half_height;
   Quad plane_x, plane_y, plane_z, plane_w;  // left, right, top, bottom: positive inside
@@ -108,16 +108,16 @@ struct Rows {
 
 inline Quad magnitude(const Quad& v) { return v < 0.0F ? -v : v; }
 
-template <class Rank>
-Kernel<Rank> make_kernel(const ClusterProjection& projection, const RankTarget<Rank>& target) {
-  Kernel<Rank> kernel{projection,
-                      target,
-                      0.5F * static_cast<float>(target.width),
-                      0.5F * static_cast<float>(target.height),
-                      {},
-                      {},
-                      {},
-                      {}};
+template <class Pixel>
+Kernel<Pixel> make_kernel(const ClusterProjection& projection, const PixelTarget<Pixel>& target) {
+  Kernel<Pixel> kernel{projection,
+                       target,
+                       0.5F * static_cast<float>(target.width),
+                       0.5F * static_cast<float>(target.height),
+                       {},
+                       {},
+                       {},
+                       {}};
   // A pixel wider than the target, so that rounding cuts nothing away.
   const float wide = 1.0F + 1.0F / kernel.half_width;
   const float high = 1.0F + 1.0F / kernel.half_height;
@@ -132,8 +132,8 @@ Kernel<Rank> make_kernel(const ClusterProjection& projection, const RankTarget<R
   return kernel;
 }
 
-template <class Rank>
-bool outside(const Kernel<Rank>& kernel, const Cluster& cluster) {
+template <class Pixel>
+bool outside(const Kernel<Pixel>& kernel, const Cluster& cluster) {
   const auto& c = cluster.center_mm;
   const auto& e = cluster.extent_mm;
   const Quad most = kernel.plane_x * c.x + kernel.plane_y * c.y + kernel.plane_z * c.z +
@@ -143,8 +143,8 @@ bool outside(const Kernel<Rank>& kernel, const Cluster& cluster) {
 }
 
 /// Whether all triangles face away from the eye (`sign` 1) or all towards it (-1).
-template <class Rank>
-bool turned_away(const Kernel<Rank>& kernel, const Cluster& cluster, float sign) {
+template <class Pixel>
+bool turned_away(const Kernel<Pixel>& kernel, const Cluster& cluster, float sign) {
   if (cluster.cone_sine >= 1.0F) return false;
   const auto& from = kernel.projection.view_from;
   const auto& axis = cluster.cone_axis;
@@ -162,8 +162,8 @@ bool turned_away(const Kernel<Rank>& kernel, const Cluster& cluster, float sign)
 
 enum class Reach { Beyond, Crosses, Behind };
 
-template <class Rank>
-Reach near_plane(const Kernel<Rank>& kernel, const Cluster& cluster) {
+template <class Pixel>
+Reach near_plane(const Kernel<Pixel>& kernel, const Cluster& cluster) {
   if (!kernel.projection.perspective) return Reach::Beyond;
   const auto& row = kernel.projection.row_w;
   const auto& c = cluster.center_mm;
@@ -175,9 +175,16 @@ Reach near_plane(const Kernel<Rank>& kernel, const Cluster& cluster) {
   return middle - reach > kernel.projection.near_mm ? Reach::Beyond : Reach::Crosses;
 }
 
+/// Whether pixels hold emission that depends on depth.
+template <class Pixel>
+constexpr bool kCued = false;
+template <>
+constexpr bool kCued<float> = true;
+
 struct PixelVertices {
   alignas(64) float x[256];  // pixels
   alignas(64) float y[256];
+  alignas(64) float depth[256];      // z, or 1 / w (perspective); for pixels with a cue only
   alignas(64) std::int32_t xy[256];  // sub-pixels from the origin, x in the lower half
   int origin_x, origin_y;            // a pixel
 };
@@ -200,8 +207,8 @@ inline Floats row_at(const glm::vec4& row, const Floats& x, const Floats& y, con
 }
 
 /// Projects and rounds. False if the cluster is too large.
-template <class Rank>
-bool project(const Kernel<Rank>& kernel, const float* positions, int count, PixelVertices& out) {
+template <class Pixel>
+bool project(const Kernel<Pixel>& kernel, const float* positions, int count, PixelVertices& out) {
   const ClusterProjection& projection = kernel.projection;
   Floats lo_x = Floats{} + 1e30F;
   Floats lo_y = lo_x;
@@ -217,6 +224,9 @@ bool project(const Kernel<Rank>& kernel, const float* positions, int count, Pixe
       const Floats over_w = 1.0F / row_at(projection.row_w, x, y, z);
       clip_x *= over_w;
       clip_y *= over_w;
+      if constexpr (kCued<Pixel>) store(out.depth + i, over_w);
+    } else if constexpr (kCued<Pixel>) {
+      store(out.depth + i, row_at(projection.row_z, x, y, z));
     }
     const Floats pixel_x = clip_x * kernel.half_width + kernel.half_width;
     const Floats pixel_y = clip_y * kernel.half_height + kernel.half_height;
@@ -259,8 +269,8 @@ inline int bounded(int pixel) { return pixel < -256 ? -256 : (pixel > 256 ? 256 
 
 inline Shorts both(int x, int y) { return bits_as<Shorts>(Ints{} + ((x & 0xFFFF) | y * 65536)); }
 
-template <class Rank>
-Clip clip_of(const Kernel<Rank>& kernel, const PixelVertices& vertices) {
+template <class Pixel>
+Clip clip_of(const Kernel<Pixel>& kernel, const PixelVertices& vertices) {
   return {both(bounded(-vertices.origin_x), bounded(-vertices.origin_y)),
           both(bounded(kernel.target.width - 1 - vertices.origin_x),
                bounded(kernel.target.height - 1 - vertices.origin_y))};
@@ -286,16 +296,22 @@ inline Centers centers_of(const Triangles& triangles, const Clip& clip) {
           least((hi - kHalf) >> kSubpixelBits, clip.last)};
 }
 
-/// Twice the areas, positive for the faces drawn; corners are exchanged where both faces are.
-inline Ints orient(Triangles& triangles, bool both_faces) {
+/// Of triangles, positive for the faces drawn, and which had to be turned for that.
+struct Areas {
+  Ints twice;
+  Ints swapped;
+};
+
+/// Exchanges the second and third corner of back faces where both faces are drawn.
+inline Areas orient(Triangles& triangles, bool both_faces) {
   const Ints area = dot(triangles.b - triangles.a, turned(triangles.c - triangles.a));
-  if (!both_faces) return area;
+  if (!both_faces) return {area, Ints{}};
   const Ints swap = area < 0;
   const Ints b = bits_as<Ints>(triangles.b);
   const Ints c = bits_as<Ints>(triangles.c);
   triangles.b = bits_as<Shorts>(swap ? c : b);
   triangles.c = bits_as<Shorts>(swap ? b : c);
-  return swap ? -area : area;
+  return {swap ? -area : area, swap};
 }
 
 /// The corners of a cluster's triangles, in the order in which the faces drawn are clockwise.
@@ -330,7 +346,7 @@ inline int list_candidates(const PixelVertices& vertices, const CornerArrays& co
   int listed = 0;
   for (int t = 0; t < count; t += kLanes) {
     Triangles triangles = gather(vertices.xy, corners, t);
-    const Ints area = orient(triangles, both_faces);
+    const Ints area = orient(triangles, both_faces).twice;
     const Centers centers = centers_of(triangles, clip);
     const Ints empty = bits_as<Ints>(centers.first > centers.last);
     unsigned some = sign_bits((empty == 0) & (area > 0));
@@ -344,7 +360,8 @@ inline int list_candidates(const PixelVertices& vertices, const CornerArrays& co
 
 /// The three edge functions of triangles, not negative where a centre is covered.
 struct Edges {
-  Ints value[3];   // at the pixel where a walk stands
+  Ints value[3];  // at the pixel where a walk stands, biased
+  Ints bias[3];
   Ints step_x[3];  // from pixel to pixel
   Ints step_y[3];
 };
@@ -353,7 +370,8 @@ inline void set_edge(Edges& edges, int k, const Shorts& from, const Shorts& to,
                      const Shorts& center) {
   const Shorts edge = to - from;
   const Ints pairs = bits_as<Ints>(edge);
-  edges.value[k] = dot(edge, turned(center - from)) + edge_bias(edge);
+  edges.bias[k] = edge_bias(edge);
+  edges.value[k] = dot(edge, turned(center - from)) + edges.bias[k];
   edges.step_x[k] = -(pairs >> 16) << kSubpixelBits;
   edges.step_y[k] = (pairs << 16) >> (16 - kSubpixelBits);
 }
@@ -368,28 +386,76 @@ inline Edges edges_of(const Triangles& triangles, const Shorts& first) {
   return edges;
 }
 
-template <class Rank>
-inline void raise(Rank& pixel, Rank rank) {
-  pixel = pixel < rank ? rank : pixel;
+template <class Pixel>
+inline void raise(Pixel& pixel, Pixel value) {
+  pixel = pixel < value ? value : pixel;
 }
+
+/// The brightness of a shell's pixels: its rank.
+template <class Pixel>
+struct Shade {
+  Pixel rank;
+
+  struct Lanes {
+    Pixel rank;
+    Pixel operator[](int) const { return rank; }
+  };
+  Lanes at(const Edges&, const Ints&, const Ints&, const Ints&) const { return {rank}; }
+  Shade of_lane(int) const { return *this; }
+};
+
+/// With a cue: from the depths of the three corners, weighed by the edges opposite to them.
+template <>
+struct Shade<float> {
+  Floats depth[3];  // of the corners opposite to edges 0, 1 and 2
+  glm::vec2 z_of_w;
+  bool perspective;
+  Brightness<float> brightness;
+
+  Floats at(const Edges& edges, const Ints& value0, const Ints& value1, const Ints& value2) const {
+    // Without the bias they add up to twice the area, which is 1 at least.
+    const Floats weight0 = __builtin_convertvector(value0 - edges.bias[0], Floats);
+    const Floats weight1 = __builtin_convertvector(value1 - edges.bias[1], Floats);
+    const Floats weight2 = __builtin_convertvector(value2 - edges.bias[2], Floats);
+    const Floats mean = (weight0 * depth[0] + weight1 * depth[1] + weight2 * depth[2]) /
+                        (weight0 + weight1 + weight2);
+    const Floats z = perspective ? z_of_w.x + z_of_w.y / mean : mean;
+    const Floats inside = least(greatest(z, Floats{}), Floats{} + 1.0F);
+    return brightness.at_far + (brightness.at_near - brightness.at_far) * inside;
+  }
+
+  /// The same for one lane's triangle in all lanes.
+  Shade of_lane(int lane) const {
+    Shade shade = *this;
+    for (int k = 0; k < 3; ++k) shade.depth[k] = Floats{} + depth[k][lane];
+    return shade;
+  }
+};
 
 /// Up to this side, triangles are walked side by side, one a lane; larger ones one by one.
 constexpr int kSmallSide = 4;
 
 /// Covers small triangles: all lanes step through the largest of their rectangles together.
-template <class Rank>
+template <class Pixel>
 void cover_small(Edges edges, const Ints& columns, const Ints& rows, const std::int32_t* offsets,
-                 int most_columns, int most_rows, Rank* origin, std::ptrdiff_t stride, Rank rank) {
+                 int most_columns, int most_rows, Pixel* origin, std::ptrdiff_t stride,
+                 const Shade<Pixel>& shade) {
   for (int y = 0;; ++y) {
     Ints value0 = edges.value[0];
     Ints value1 = edges.value[1];
     Ints value2 = edges.value[2];
     const Ints beyond_row = rows - y;
-    Rank* row = origin + y * stride;
+    Pixel* row = origin + y * stride;
     for (int x = 0;; ++x) {
       unsigned hit = (1U << kLanes) - 1;
       hit &= ~sign_bits(value0 | value1 | value2 | (columns - x) | beyond_row);
-      for (; hit != 0; hit &= hit - 1) raise(row[offsets[__builtin_ctz(hit)] + x], rank);
+      if (hit != 0) {
+        const auto values = shade.at(edges, value0, value1, value2);
+        for (; hit != 0; hit &= hit - 1) {
+          const int lane = __builtin_ctz(hit);
+          raise<Pixel>(row[offsets[lane] + x], values[lane]);
+        }
+      }
       if (x == most_columns) break;
       value0 += edges.step_x[0];
       value1 += edges.step_x[1];
@@ -407,35 +473,45 @@ inline Ints lane_numbers() {
   return numbers;
 }
 
-/// Covers one triangle, pixels side by side.
-template <class Rank>
-void cover_large(const Edges& edges, int lane, int columns, int rows, Rank* first,
-                 std::ptrdiff_t stride, Rank rank) {
-  Ints start[3];
-  Ints across[3];
+/// One lane's edges in all lanes, each a pixel further to the right.
+inline Edges side_by_side(const Edges& edges, int lane) {
+  Edges all;
   for (int k = 0; k < 3; ++k) {
-    start[k] = edges.value[k][lane] + lane_numbers() * edges.step_x[k][lane];
-    across[k] = Ints{} + kLanes * edges.step_x[k][lane];
+    all.value[k] = edges.value[k][lane] + lane_numbers() * edges.step_x[k][lane];
+    all.bias[k] = Ints{} + edges.bias[k][lane];
+    all.step_x[k] = Ints{} + kLanes * edges.step_x[k][lane];
+    all.step_y[k] = Ints{} + edges.step_y[k][lane];
   }
+  return all;
+}
+
+/// Covers one triangle, pixels side by side.
+template <class Pixel>
+void cover_large(Edges edges, int columns, int rows, Pixel* first, std::ptrdiff_t stride,
+                 const Shade<Pixel>& shade) {
   for (int y = 0; y <= rows; ++y) {
-    Ints value0 = start[0];
-    Ints value1 = start[1];
-    Ints value2 = start[2];
-    Rank* row = first + y * stride;
+    Ints value0 = edges.value[0];
+    Ints value1 = edges.value[1];
+    Ints value2 = edges.value[2];
+    Pixel* row = first + y * stride;
     for (int x = 0; x <= columns; x += kLanes) {
       const Ints left = columns - x - lane_numbers();
       unsigned hit = (1U << kLanes) - 1;
       hit &= ~sign_bits(value0 | value1 | value2 | left);
+      const auto values = shade.at(edges, value0, value1, value2);
       if (hit == (1U << kLanes) - 1) {
-        for (int i = 0; i < kLanes; ++i) raise(row[x + i], rank);
+        for (int i = 0; i < kLanes; ++i) raise<Pixel>(row[x + i], values[i]);
       } else {
-        for (; hit != 0; hit &= hit - 1) raise(row[x + __builtin_ctz(hit)], rank);
+        for (; hit != 0; hit &= hit - 1) {
+          const int i = __builtin_ctz(hit);
+          raise<Pixel>(row[x + i], values[i]);
+        }
       }
-      value0 += across[0];
-      value1 += across[1];
-      value2 += across[2];
+      value0 += edges.step_x[0];
+      value1 += edges.step_x[1];
+      value2 += edges.step_x[2];
     }
-    for (int k = 0; k < 3; ++k) start[k] += edges.step_y[k][lane];
+    for (int k = 0; k < 3; ++k) edges.value[k] += edges.step_y[k];
   }
 }
 
@@ -445,41 +521,65 @@ inline int greatest_lane(const Ints& v) {
   return most;
 }
 
-/// Covers the first `used` of the lanes' triangles.
-template <class Rank>
-void cover(Triangles& triangles, int used, bool both_faces, const Clip& clip, Rank* origin,
-           int stride, Rank rank) {
-  orient(triangles, both_faces);
+/// Covers the first `used` of the lanes' triangles, which are oriented.
+template <class Pixel>
+void cover(const Triangles& triangles, int used, const Clip& clip, Pixel* origin, int stride,
+           const Shade<Pixel>& shade) {
   const Centers centers = centers_of(triangles, clip);
   const Edges edges = edges_of(triangles, centers.first);
   const Ints size = bits_as<Ints>(centers.last - centers.first);
-  Ints columns = (size << 16) >> 16;
-  Ints rows = size >> 16;
+  const Ints columns = (size << 16) >> 16;
+  const Ints rows = size >> 16;
   alignas(64) std::int32_t offsets[kLanes];
   store(offsets, dot(centers.first, both(1, stride)));
   const Ints unused = lane_numbers() >= used;
   const Ints large = ~unused & ((columns >= kSmallSide) | (rows >= kSmallSide));
-  columns |= unused | large;  // -1: nothing to walk
-  unsigned larges = sign_bits(large);
-  const int most_columns = greatest_lane(columns);
-  const int most_rows = greatest_lane(columns < 0 ? columns : rows);
+  const Ints small_columns = columns | unused | large;  // -1: nothing to walk
+  const int most_columns = greatest_lane(small_columns);
   if (most_columns >= 0) {
-    cover_small(edges, columns, rows, offsets, most_columns, most_rows, origin, stride, rank);
+    const int most_rows = greatest_lane(small_columns < 0 ? small_columns : rows);
+    cover_small(edges, small_columns, rows, offsets, most_columns, most_rows, origin, stride,
+                shade);
   }
-  for (; larges != 0; larges &= larges - 1) {
+  for (unsigned larges = sign_bits(large); larges != 0; larges &= larges - 1) {
     const int lane = __builtin_ctz(larges);
-    const Ints all_columns = (size << 16) >> 16;
-    cover_large(edges, lane, all_columns[lane], rows[lane], origin + offsets[lane], stride, rank);
+    cover_large<Pixel>(side_by_side(edges, lane), columns[lane], rows[lane], origin + offsets[lane],
+                       stride, shade.of_lane(lane));
   }
 }
 
-template <class Rank>
-void draw_triangles(const Kernel<Rank>& kernel, const ClusterDraw<Rank>& draw,
+inline Floats gather_depths(const float* depths, const std::uint8_t* corners,
+                            const std::uint8_t* list) {
+  Floats gathered;
+  for (int i = 0; i < kLanes; ++i) gathered[i] = depths[corners[list[i]]];
+  return gathered;
+}
+
+/// @param swap  lanes whose second and third corners were exchanged
+template <class Pixel>
+Shade<Pixel> shade_of(const ClusterDraw<Pixel>& draw, const ClusterProjection& projection,
+                      const PixelVertices& vertices, const CornerArrays& corners,
+                      const std::uint8_t* list, const Ints& swap) {
+  if constexpr (kCued<Pixel>) {
+    const Floats a = gather_depths(vertices.depth, corners.first, list);
+    const Floats b = gather_depths(vertices.depth, corners.second, list);
+    const Floats c = gather_depths(vertices.depth, corners.third, list);
+    return {{swap ? b : c, a, swap ? c : b},
+            projection.z_of_w,
+            projection.perspective,
+            draw.brightness};
+  } else {
+    return {draw.brightness.rank};
+  }
+}
+
+template <class Pixel>
+void draw_triangles(const Kernel<Pixel>& kernel, const ClusterDraw<Pixel>& draw,
                     const Cluster& cluster, const PixelVertices& vertices) {
   const Clip clip = clip_of(kernel, vertices);
   const int stride = kernel.target.width;
-  Rank* origin = kernel.target.pixels + static_cast<std::ptrdiff_t>(vertices.origin_y) * stride +
-                 vertices.origin_x;
+  Pixel* origin = kernel.target.pixels + static_cast<std::ptrdiff_t>(vertices.origin_y) * stride +
+                  vertices.origin_x;
   const std::uint8_t* first = draw.corners + cluster.first_corner;
   const int count = cluster.triangles;
   // Front faces are counter-clockwise, which has a negative area where y points down.
@@ -490,14 +590,16 @@ void draw_triangles(const Kernel<Rank>& kernel, const ClusterDraw<Rank>& draw,
   const int listed = list_candidates(vertices, corners, count, both_faces, clip, list);
   for (int i = 0; i < listed; i += kLanes) {
     Triangles triangles = gather_listed(vertices.xy, corners, list + i);
-    cover(triangles, listed - i, both_faces, clip, origin, stride, draw.rank);
+    const Ints swap = orient(triangles, both_faces).swapped;
+    cover(triangles, listed - i, clip, origin, stride,
+          shade_of(draw, kernel.projection, vertices, corners, list + i, swap));
   }
 }
 
-template <class Rank>
-KernelResult draw_clusters(const ClusterDraw<Rank>& draw, const ClusterProjection& projection,
-                           const RankTarget<Rank>& target, std::uint32_t* too_large) {
-  const Kernel<Rank> kernel = make_kernel(projection, target);
+template <class Pixel>
+KernelResult draw_clusters(const ClusterDraw<Pixel>& draw, const ClusterProjection& projection,
+                           const PixelTarget<Pixel>& target, std::uint32_t* too_large) {
+  const Kernel<Pixel> kernel = make_kernel(projection, target);
   KernelResult result;
   PixelVertices vertices;
   for (std::size_t i = 0; i < draw.count; ++i) {
@@ -522,6 +624,7 @@ KernelResult draw_clusters(const ClusterDraw<Rank>& draw, const ClusterProjectio
 
 DrawClusters<std::uint8_t> draw_clusters_8() noexcept { return &draw_clusters<std::uint8_t>; }
 DrawClusters<std::uint16_t> draw_clusters_16() noexcept { return &draw_clusters<std::uint16_t>; }
+DrawClusters<float> draw_clusters_cued() noexcept { return &draw_clusters<float>; }
 
 }  // namespace NACRE_KERNEL
 }  // namespace nacre

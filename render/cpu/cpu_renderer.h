@@ -3,14 +3,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
+#include <string>
+#include <string_view>
 
-#include "core/camera.h"
-#include "core/image.h"
-#include "core/shell_set.h"
 #include "render/cpu/cluster_kernel.h"
-#include "render/plan.h"
 #include "render/render_options.h"
+#include "render/shell_renderer.h"
 
 namespace nacre {
 
@@ -22,12 +22,9 @@ struct CpuOptions {
   InstructionSet instructions = best_instruction_set();
 };
 
-/// What the last picture cost.
-struct CpuFrameStats {
-  std::size_t clusters = 0;  ///< of the shells drawn, at the level of detail that they are drawn in
-  std::size_t triangles = 0;  ///< of clusters that were not rejected as a whole
-  double seconds = 0.0;       ///< from the first command to the picture in memory
-};
+/// Why `CpuRenderer` does not draw the pictures of this plan; nothing if it does. It draws maximum
+/// projections, with and without a cue, of whole volumes without tools.
+std::optional<std::string> cpu_objection(const Plan& plan);
 
 /// Draws maximum projections of shell sets on the processor, without OpenGL.
 ///
@@ -37,41 +34,36 @@ struct CpuFrameStats {
 /// corners that floats put to either side of a sub-pixel.
 ///
 /// Uses all threads of the calling TBB arena. A renderer is used from one thread at a time.
-class CpuRenderer {
+class CpuRenderer : public ShellRenderer {
  public:
   explicit CpuRenderer(const CpuOptions& options = {});
-  ~CpuRenderer();
+  ~CpuRenderer() override;
   CpuRenderer(CpuRenderer&&) noexcept;
   CpuRenderer& operator=(CpuRenderer&&) noexcept;
 
-  /// What to plan for.
-  const Capabilities& capabilities() const noexcept;
+  std::string_view backend_name() const noexcept override;
+  std::string device_name() const override;
+  const Capabilities& capabilities() const noexcept override;
 
-  /// Prepares a set for drawing, in place of what was there: cuts it into clusters. The set is not
-  /// needed afterwards.
+  /// Prepares a whole set for drawing, in place of what was there: cuts it into clusters. The set
+  /// is not needed afterwards.
   void upload(const ShellSet& set);
 
-  /// The same with these shells only; the surfaces of others may be missing in `set`.
-  ///
-  /// @param facts   of the whole set, as a file's header or `scene_facts` gives them
-  /// @param shells  indices; those that pictures will draw, see `shells_drawn`
-  /// @throws Error  BadArgument for a shell that does not exist or has no such number of triangles
-  void upload(const ShellSet& set, const SceneFacts& facts, std::span<const std::uint32_t> shells);
+  void upload(const ShellSet& set, const SceneFacts& facts, std::span<const std::uint32_t> shells,
+              const UploadOptions& options = {}) override;
 
-  /// Bytes of vertices and triangles held.
-  std::size_t uploaded_bytes() const noexcept;
+  /// Takes none, and that only to be used as other renderers are.
+  /// @throws Error  Unsupported if there are any
+  void upload_tools(std::span<const Tool> tools) override;
 
-  /// The picture of the uploaded set: emission, 0 where there is nothing.
-  /// @throws Error  as `make_plan` does
-  Image render(const Camera& camera, const RenderOptions& options = {});
+  std::size_t uploaded_bytes() const noexcept override;
 
-  /// The picture that the plan, made for this camera and the uploaded set, describes.
-  /// @throws Error  BadArgument if it draws a shell that was not uploaded, Unsupported for more
-  ///                than 65535 ranks
-  Image render(const Camera& camera, const Plan& plan);
+  /// The picture of the uploaded set: 0 where nothing of the volume shows.
+  /// @throws Error  as `make_plan` does; Unsupported where `cpu_objection` has one
+  Picture render(const Camera& camera, const RenderOptions& options = {});
 
-  /// Of the last picture; zeros before the first.
-  const CpuFrameStats& last_frame() const noexcept;
+  Picture render(const Camera& camera, const Plan& plan) override;
+  const FrameStats& last_frame() const noexcept override;
 
  private:
   class Drawing;

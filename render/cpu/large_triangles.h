@@ -11,8 +11,8 @@ namespace nacre {
 /// division. The pixels are those of the kernels.
 ///
 /// @param draw  its `clusters` point to the cluster; `count` is ignored
-template <class Rank>
-void draw_large_cluster(const ClusterDraw<Rank>& draw, const ClusterProjection& projection,
-                        const RankTarget<Rank>& target);
+template <class Pixel>
+void draw_large_cluster(const ClusterDraw<Pixel>& draw, const ClusterProjection& projection,
+                        const PixelTarget<Pixel>& target);
 
 }  // namespace nacre
