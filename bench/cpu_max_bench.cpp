@@ -74,7 +74,7 @@ class LoadedScene {
 
   const Image& truth(int view) {
     if (truth_.empty()) {
-      for (const Camera& camera : cameras_) truth_.push_back(exact_picture(walk_, camera));
+      for (const Camera& camera : cameras_) truth_.push_back(exact_picture(walk_, camera).volume);
     }
     return truth_[static_cast<std::size_t>(view)];
   }
@@ -153,11 +153,15 @@ void gl_frames(benchmark::State& state, const Scene& scene, int levels, Backend 
 
 void exact_frames(benchmark::State& state, const Scene& scene) {
   LoadedScene& data = loaded(scene);
-  frames(state, data, [&](const Camera& camera) { return exact_picture(data.walk(), camera); });
+  frames(state, data,
+         [&](const Camera& camera) { return exact_picture(data.walk(), camera).volume; });
 }
 
 void register_bench(const std::string& name, const std::function<void(benchmark::State&)>& run) {
-  benchmark::RegisterBenchmark(name.c_str(), run)->Unit(benchmark::kMillisecond)->UseRealTime();
+  benchmark::RegisterBenchmark(name.c_str(), run)
+      ->Unit(benchmark::kMillisecond)
+      ->MeasureProcessCPUTime()
+      ->UseRealTime();
 }
 
 void register_scene(const Scene& scene) {
