@@ -283,7 +283,7 @@ void run_shells_of_volume(const ExactFlags& flags, const DrawFlags& draw,
 
 void say_backends() {
   fmt::print("{:<7} {:<12} {:<9} maximum projections of whole shells\n", "cpu", "built in",
-             "software");
+             "processor");
   const BackendList list = list_backends();
   for (const BackendInfo& info : list.working) {
     fmt::print("{:<7} {:<12} {:<9} {} ({})\n", name(info.backend), info.platform,

@@ -6,9 +6,11 @@
 
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <functional>
+#include <glm/vec3.hpp>
 #include <limits>
 #include <map>
 #include <memory>
@@ -40,13 +42,14 @@ struct Scene {
   std::string file;  ///< in the test data; empty for the phantom
   double lo = 0.0;
   double hi = 0.0;
+  std::int64_t side = 256;  ///< samples of the phantom along x and y
 };
 
 /// All that the benches of a scene share, made when first needed.
 class LoadedScene {
  public:
   explicit LoadedScene(const Scene& scene)
-      : volume_(scene.file.empty() ? make_phantom("angiogram") : read(scene.file)),
+      : volume_(scene.file.empty() ? phantom(scene.side) : read(scene.file)),
         emission_(EmissionMap::window(scene.lo, scene.hi)),
         walk_(volume_, emission_),
         sphere_(bounding_sphere(volume_.dims, volume_.world_from_voxel)) {
@@ -83,6 +86,10 @@ class LoadedScene {
   const ExactWalk& walk() const { return walk_; }
 
  private:
+  static Volume phantom(std::int64_t side) {
+    return make_phantom("angiogram", {.size = glm::i64vec3(side, side, side * 124 / 256)});
+  }
+
   static Volume read(const std::string& file) {
     return read_volume(std::filesystem::path(std::getenv("NACRE_TEST_DATA")) / "volumes" / file)
         .volume;
@@ -136,9 +143,10 @@ void shell_frames(benchmark::State& state, const Scene& scene, int levels, Rende
   state.counters["triangles"] = static_cast<double>(triangles);
 }
 
-void cpu_frames(benchmark::State& state, const Scene& scene, int levels, std::size_t threads) {
+void cpu_frames(benchmark::State& state, const Scene& scene, int levels, std::size_t threads,
+                double detail_px = 0.0) {
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-  CpuRenderer renderer;
+  CpuRenderer renderer({.detail_px = detail_px});
   shell_frames(state, scene, levels, renderer);
 }
 
@@ -166,7 +174,7 @@ void register_bench(const std::string& name, const std::function<void(benchmark:
 
 void register_scene(const Scene& scene) {
   register_bench(scene.name + "/exact", [=](auto& state) { exact_frames(state, scene); });
-  for (const int levels : {12, 24, 48}) {
+  for (const int levels : {6, 12, 24, 48}) {
     const std::string shells = scene.name + "/" + std::to_string(levels);
     for (const std::size_t threads : {std::size_t{1}, std::size_t{2}}) {
       register_bench(shells + "/cpu/threads:" + std::to_string(threads),
@@ -174,6 +182,17 @@ void register_scene(const Scene& scene) {
     }
     register_bench(shells + "/osmesa",
                    [=](auto& state) { gl_frames(state, scene, levels, Backend::OsMesa); });
+  }
+}
+
+/// The same anatomy sampled ever more finely, in pictures of one size: cost against work.
+void register_growing() {
+  for (const std::int64_t side : {96, 160, 256, 384, 512, 640, 768}) {
+    const Scene scene{"growing/" + std::to_string(side), "", 400.0, 1400.0, side};
+    for (const double detail_px : {0.0, 0.5, 1.0}) {
+      register_bench(scene.name + "/detail:" + std::to_string(detail_px).substr(0, 3),
+                     [=](auto& state) { cpu_frames(state, scene, 24, 2, detail_px); });
+    }
   }
 }
 
@@ -187,6 +206,7 @@ int main(int argc, char** argv) {
     nacre::register_scene({"aneurism", "aneurism_256_uint8.nrrd", 20.0, 250.0});
     nacre::register_scene({"MR_Gd", "MR_Gd.nii.gz", 648.0, 1556.0});
   }
+  nacre::register_growing();
   benchmark::Initialize(&argc, argv);
   benchmark::RunSpecifiedBenchmarks();
   return 0;
