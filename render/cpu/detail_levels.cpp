@@ -6,7 +6,8 @@
 #include <cstdint>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/vec4.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
 #include <numeric>
 #include <utility>
 
@@ -40,17 +41,58 @@ class KeyNumbers {
   std::uint32_t count_ = 0;
 };
 
-/// The mean of the positions that share a number.
-std::vector<glm::vec3> means(const std::vector<glm::vec3>& positions,
-                             const std::vector<std::uint32_t>& numbers) {
-  std::vector<glm::dvec4> sums;
-  for (std::size_t i = 0; i < positions.size(); ++i) {
-    if (numbers[i] == sums.size()) sums.emplace_back(0.0);
-    sums[numbers[i]] += glm::dvec4(positions[i], 1.0);
+/// The squared distance from planes, weighed, as a quadric x'Ax - 2b'x + c (Garland, Heckbert 1997,
+/// "Surface Simplification Using Quadric Error Metrics"), and the mean of some points.
+struct CellSum {
+  glm::dmat3 normals{0.0};  ///< A
+  glm::dvec3 planes{0.0};   ///< b
+  glm::dvec3 points{0.0};
+  double count = 0.0;
+};
+
+/// How much the mean counts against the planes: enough to choose a point on a plane or an edge.
+constexpr double kMeanWeight = 1e-2;
+
+/// The point nearest to the planes of a cell; the mean of its points where that is far from them.
+/// All relative to the first of the points.
+glm::dvec3 best_point(const CellSum& sum, double cell_mm) {
+  const glm::dvec3 mean = sum.points / sum.count;
+  const double weight = kMeanWeight * (sum.normals[0][0] + sum.normals[1][1] + sum.normals[2][2]);
+  if (!(weight > 0.0)) return mean;
+  const glm::dvec3 best =
+      glm::inverse(sum.normals + glm::dmat3(weight)) * (sum.planes + weight * mean);
+  return glm::distance(best, mean) <= 0.5 * cell_mm ? best : mean;
+}
+
+/// A position for each number: where the triangles around the vertices of that number are kept best
+/// (Lindstrom 2000, "Out-of-core simplification of large polygonal models").
+std::vector<glm::vec3> merged_positions(const TriangleMesh& mesh,
+                                        const std::vector<std::uint32_t>& numbers, double cell_mm) {
+  std::vector<glm::dvec3> first;
+  std::vector<CellSum> sums;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    if (numbers[i] == sums.size()) {
+      first.emplace_back(mesh.positions[i]);
+      sums.emplace_back();
+    }
+    sums[numbers[i]].points += glm::dvec3(mesh.positions[i]) - first[numbers[i]];
+    sums[numbers[i]].count += 1.0;
+  }
+  for (const glm::uvec3& t : mesh.triangles) {
+    const glm::dvec3 a(mesh.positions[t.x]);
+    const glm::dvec3 normal =
+        glm::cross(glm::dvec3(mesh.positions[t.y]) - a, glm::dvec3(mesh.positions[t.z]) - a);
+    for (int corner = 0; corner < 3; ++corner) {
+      CellSum& sum = sums[numbers[t[corner]]];
+      sum.normals += glm::outerProduct(normal, normal);
+      sum.planes += glm::dot(normal, a - first[numbers[t[corner]]]) * normal;
+    }
   }
   std::vector<glm::vec3> result;
   result.reserve(sums.size());
-  for (const glm::dvec4& sum : sums) result.emplace_back(glm::dvec3(sum) / sum.w);
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    result.emplace_back(first[i] + best_point(sums[i], cell_mm));
+  }
   return result;
 }
 
@@ -82,7 +124,7 @@ MergedVertices merge_vertices(const TriangleMesh& mesh, double cell_mm) {
   for (const glm::vec3& p : mesh.positions) numbers.push_back(cells.number(key(p)));
 
   MergedVertices result;
-  result.mesh.positions = means(mesh.positions, numbers);
+  result.mesh.positions = merged_positions(mesh, numbers, cell_mm);
   for (const glm::uvec3& t : mesh.triangles) {
     const glm::uvec3 merged(numbers[t.x], numbers[t.y], numbers[t.z]);
     if (merged.x != merged.y && merged.y != merged.z && merged.z != merged.x) {

@@ -17,11 +17,12 @@ struct DetailLevel {
   double error_mm = 0.0;
 };
 
-/// A surface with vertices merged to the mean of those in their cell of a cubic grid (Rossignac,
-/// Borrel 1993, "Multi-resolution 3D approximations for rendering complex scenes").
+/// A surface with the vertices in each cell of a cubic grid merged (Rossignac, Borrel 1993,
+/// "Multi-resolution 3D approximations for rendering complex scenes"), to the point that is nearest
+/// to the planes of the triangles around them: a mean would make what is thin thinner.
 struct MergedVertices {
   TriangleMesh mesh;                     ///< without the triangles that lost their area
-  std::vector<std::uint32_t> merged_to;  ///< of each vertex before: its mean in `mesh`
+  std::vector<std::uint32_t> merged_to;  ///< of each vertex before: its index in `mesh`
 };
 
 /// Merges the vertices in each cell. The surface stays closed: every edge that is left is shared by
