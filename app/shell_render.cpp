@@ -189,8 +189,8 @@ void add_draw_flags(CLI::App& verb, DrawFlags& flags) {
       ->capture_default_str()
       ->group(group);
   verb.add_option("--occlusion", flags.occlusion,
-                  "How tools hide what is behind them in a maximum: passes, texture, or auto, the "
-                  "cheaper one that is exact")
+                  "How tools hide what is behind them in a maximum: passes, texture, or auto: the "
+                  "texture, always exact and seldom the slower")
       ->capture_default_str()
       ->group(group);
   verb.add_option("--detail", flags.detail_px,

@@ -54,7 +54,7 @@ void max_projection(benchmark::State& state, Backend backend, const RenderOption
   frames(state, backend, options, testing::nested_balls(kShells, 55.0, rings), {});
 }
 
-/// 48 shells of 20,448 triangles and a tool of 27,224: the rows of decision 012.
+/// 48 shells of 20,448 triangles and a tool of 27,224: the largest row of decision 012, and cued.
 void tools(benchmark::State& state, const RenderOptions& options) {
   const Tool tool = rod(83);
   frames(state, Backend::OsMesa, options, testing::nested_balls(48, 55.0, 72), {&tool, 1});

@@ -81,7 +81,7 @@ std::string_view why_not_passes(const Planning& planning) {
 }
 
 /// How tools cut the shells they reach. By texture unless passes are asked for: it is always exact,
-/// and never found slower (docs/decisions/012-tools-by-texture.md).
+/// and seldom the slower (docs/decisions/012-tools-by-texture.md).
 ToolCut tool_cut(Planning& planning) {
   const bool reached = std::any_of(planning.shells.begin(), planning.shells.end(),
                                    [](const ShownShell& shell) { return shell.reached; });
