@@ -58,7 +58,8 @@ std::vector<BrightBrick> bright_in_layer(const WalkField& field, std::span<const
           for (first.x = begin.x; first.x < end.x; first.x += kSide) {
             const double greatest =
                 greatest_in(field, samples, first, glm::min(first + kSide, end));
-            if (greatest > floor) bright.push_back({first, greatest});
+            if (!(greatest > floor)) continue;
+            bright.push_back({first, greatest, field.emission_of_field(greatest)});
           }
         }
       }

@@ -10,7 +10,8 @@ struct WalkField;
 /// A small cube of cells in which a volume can shine, and its greatest sample.
 struct BrightBrick {
   glm::ivec3 first_cell{0};
-  double greatest = 0.0;  ///< field units
+  double greatest = 0.0;  ///< sample, field units
+  double emission = 0.0;  ///< of that sample
 };
 
 /// All bricks of `kSide`^3 cells with a sample above the emission map's first knot, the brightest

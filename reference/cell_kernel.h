@@ -29,7 +29,9 @@ struct LaneRays {
   const double* slack[3];    ///< 0, along an axis of direction 0 `kSlack`; null if all are 0
   const double* t_begin;
   const double* t_end;
-  double* best;  ///< the greatest so far
+  double* best;             ///< the greatest so far
+  const double* beta_at;    ///< the cue at t = 0; for `visit_parts` only
+  const double* beta_rise;  ///< and its rise with t
   std::size_t stride;
 
   /// So large that (plane - origin) * kNever is far beyond kSlack, unless the ray is in the plane.
@@ -65,15 +67,31 @@ struct BrickCell {
 using RaiseMaxima = void (*)(const LaneRays&, const BrickSamples&, const BrickCell&,
                              const LaneRectangle&);
 
-/// Calls `visit(context, ray, part)` for each ray through a cell that `cell.greatest` exceeds; ray
-/// is its place in the arrays.
+/// A line that no emission map value exceeds: T(v) <= at_0 + slope * v.
+struct EmissionBound {
+  double at_0;
+  double slope;
+};
+
+/// What to do with a part of a ray.
+struct PartVisitor {
+  void (*visit)(void* context, std::size_t ray, const CellPart& part);
+  void* context;
+};
+
+/// Visits each ray through a cell, by its place in the arrays, whose cued emission may exceed its
+/// best: `cell.greatest` (an emission times a cue) does, and so does the bound times the cue.
 using VisitParts = void (*)(const LaneRays&, const BrickSamples&, const BrickCell&,
-                            const LaneRectangle&,
-                            void (*visit)(void* context, std::size_t ray, const CellPart& part),
-                            void* context);
+                            const LaneRectangle&, const EmissionBound&, const PartVisitor&);
 // NOLINTEND(modernize-avoid-c-arrays)
 
+/// The greatest corner of each of a brick's 4^3 cells, x fastest; returns one bit a cell, set where
+/// it exceeds `floor`.
+using GreatestCorners = unsigned long long (*)(const BrickSamples&, double floor,
+                                               double greatest[64]);
+
 struct CellKernel {
+  GreatestCorners greatest_corners;
   RaiseMaxima raise_maxima;
   VisitParts visit_parts;
 };

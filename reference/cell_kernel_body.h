@@ -184,17 +184,46 @@ void raise(const LaneRays& rays, const BrickSamples& brick, const BrickCell& cel
 
 template <bool kSlack>
 void visit_each(const LaneRays& rays, const BrickSamples& brick, const BrickCell& cell,
-                const LaneRectangle& rectangle,
-                void (*visit)(void* context, std::size_t ray, const CellPart& part),
-                void* context) {
-  for_rays<kSlack>(rays, brick, cell, rectangle,
-                   [&](std::size_t i, const Passage& passage, const Cubics& f, const Mask& mask) {
-                     for (unsigned left = bits(mask); left != 0; left &= left - 1) {
-                       const int lane = __builtin_ctz(left);
-                       visit(context, i + static_cast<std::size_t>(lane),
-                             part_of(f, passage, lane));
-                     }
-                   });
+                const LaneRectangle& rectangle, const EmissionBound& bound,
+                const PartVisitor& visitor) {
+  for_rays<kSlack>(
+      rays, brick, cell, rectangle,
+      [&](std::size_t i, const Passage& passage, const Cubics& f, const Mask& mask) {
+        const Doubles at = load(rays.beta_at + i);
+        const Doubles rise = load(rays.beta_rise + i);
+        const Doubles beta = greatest(at + rise * passage.t_enter, at + rise * passage.t_exit);
+        const Doubles value = greatest(greatest(f.b[0], f.b[1]), greatest(f.b[2], f.b[3]));
+        const Doubles reach = beta * (bound.at_0 + bound.slope * value);
+        unsigned left = bits(mask & (reach > load(rays.best + i)));
+        for (; left != 0; left &= left - 1) {
+          const int lane = __builtin_ctz(left);
+          visitor.visit(visitor.context, i + static_cast<std::size_t>(lane),
+                        part_of(f, passage, lane));
+        }
+      });
+}
+
+unsigned long long greatest_corners(const BrickSamples& brick, double floor,
+                                    double greatest_of[64]) {
+  constexpr int kSide = BrickSamples::kCells;
+  constexpr int kPlane = kSamples * kSamples;
+  unsigned long long above = 0;
+  for (int z = 0; z < kSide; ++z) {
+    for (int y = 0; y < kSide; ++y) {
+      for (int x = 0; x < kSide; x += kLanes) {
+        const double* base = brick.sample + x + kSamples * y + kPlane * z;
+        const auto pair = [&](int offset) {
+          return greatest(load(base + offset), load(base + offset + 1));
+        };
+        const Doubles most = greatest(greatest(pair(0), pair(kSamples)),
+                                      greatest(pair(kPlane), pair(kPlane + kSamples)));
+        const int cell = x + kSide * (y + kSide * z);
+        store(greatest_of + cell, most);
+        above |= static_cast<unsigned long long>(bits(most > floor)) << cell;
+      }
+    }
+  }
+  return above;
 }
 
 void raise_maxima(const LaneRays& rays, const BrickSamples& brick, const BrickCell& cell,
@@ -203,16 +232,15 @@ void raise_maxima(const LaneRays& rays, const BrickSamples& brick, const BrickCe
 }
 
 void visit_parts(const LaneRays& rays, const BrickSamples& brick, const BrickCell& cell,
-                 const LaneRectangle& rectangle,
-                 void (*visit)(void* context, std::size_t ray, const CellPart& part),
-                 void* context) {
+                 const LaneRectangle& rectangle, const EmissionBound& bound,
+                 const PartVisitor& visitor) {
   (rays.slack[0] != nullptr ? visit_each<true> : visit_each<false>)(rays, brick, cell, rectangle,
-                                                                    visit, context);
+                                                                    bound, visitor);
 }
 
 }  // namespace
 
-CellKernel cell_kernel() noexcept { return {raise_maxima, visit_parts}; }
+CellKernel cell_kernel() noexcept { return {greatest_corners, raise_maxima, visit_parts}; }
 
 }  // namespace nacre::NACRE_KERNEL
 // NOLINTEND(modernize-avoid-c-arrays)

@@ -18,18 +18,6 @@ Bounds quotient(const Bounds& a, const Bounds& w) {
           a.greatest / (a.greatest < 0.0 ? w.greatest : w.least)};
 }
 
-/// First and past-the-last pixel of [begin, end) with its centre within the bounds, or a hair
-/// outside.
-void cut(const Bounds& bounds, int& begin, int& end) {
-  constexpr double kHair = 1e-6;  // pixels: far above the rounding of 1e5 of them
-  const auto pixel = [&](double p) {
-    return static_cast<int>(std::clamp<double>(p, begin - 1.0, end + 1.0));
-  };
-  // A cast rounds towards zero: of what is below it only -1 is left, which is cut.
-  begin = std::max(begin, pixel(bounds.least + (0.5 - kHair)));
-  end = std::min(end, pixel(bounds.greatest + (0.5 + kHair)));
-}
-
 }  // namespace
 
 CellRectangles::Affine CellRectangles::affine(const WalkField& field, const glm::dvec3& axis,
@@ -52,6 +40,12 @@ CellRectangles::CellRectangles(const WalkField& field, const Camera& camera)
   x_ = affine(field, camera.right, from, scale);
   y_ = affine(field, camera.up, from, scale);
   w_ = affine(field, camera.forward, from, 1.0);
+  for (int i = 0; i < kBrick * kBrick * kBrick; ++i) {
+    const glm::dvec3 center =
+        0.5 + glm::dvec3(i % kBrick, i / kBrick % kBrick, i / kBrick / kBrick);
+    cell_x_[static_cast<std::size_t>(i)] = glm::dot(x_.rise, center);
+    cell_y_[static_cast<std::size_t>(i)] = glm::dot(y_.rise, center);
+  }
 }
 
 PixelRectangle CellRectangles::of(const glm::ivec3& first_cell, int side,
@@ -71,10 +65,9 @@ PixelRectangle CellRectangles::of(const glm::ivec3& first_cell, int side,
     x = quotient(x, w);
     y = quotient(y, w);
   }
-  PixelRectangle rectangle = frame;
-  cut({center_px_.x + x.least, center_px_.x + x.greatest}, rectangle.x0, rectangle.x1);
-  cut({center_px_.y - y.greatest, center_px_.y - y.least}, rectangle.y0, rectangle.y1);
-  return rectangle;
+  return around(center_px_.x + 0.5 * (x.least + x.greatest),
+                center_px_.y - 0.5 * (y.least + y.greatest), 0.5 * (x.greatest - x.least),
+                0.5 * (y.greatest - y.least), frame);
 }
 
 }  // namespace nacre

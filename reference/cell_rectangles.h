@@ -1,9 +1,12 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include "core/camera.h"
+#include "reference/bright_bricks.h"
 #include "reference/walk_field.h"
 
 namespace nacre {
@@ -39,6 +42,19 @@ class CellRectangles {
   /// @param side        cells along its edge
   PixelRectangle of(const glm::ivec3& first_cell, int side, const PixelRectangle& frame) const;
 
+  /// The pixels that cell `index` (x + 4 y + 16 z) of the brick may cover: as `of` with side 1.
+  PixelRectangle of_cell(const glm::ivec3& first_cell, int index,
+                         const PixelRectangle& frame) const {
+    if (perspective_) {
+      return of(first_cell + glm::ivec3(index & 3, (index >> 2) & 3, index >> 4), 1, frame);
+    }
+    const double x =
+        center_px_.x + x_(glm::dvec3(first_cell)) + cell_x_[static_cast<std::size_t>(index)];
+    const double y =
+        center_px_.y - y_(glm::dvec3(first_cell)) - cell_y_[static_cast<std::size_t>(index)];
+    return around(x, y, x_.half_cell, y_.half_cell, frame);
+  }
+
  private:
   struct Affine {
     double at_origin = 0.0;
@@ -52,11 +68,29 @@ class CellRectangles {
   static Affine affine(const WalkField& field, const glm::dvec3& axis, const glm::dvec3& from_mm,
                        double scale);
 
+  /// Pixels of `frame` with their centres within a box about (x, y), or a hair outside.
+  static PixelRectangle around(double x, double y, double half_x, double half_y,
+                               const PixelRectangle& frame) {
+    constexpr double kHair = 1e-6;  // pixels: far above the rounding of 1e5 of them
+    // A cast rounds towards zero: what is below it lies before the frame in any case.
+    const auto first = [](double least, int from, int to) {
+      return static_cast<int>(std::clamp<double>(least + (0.5 - kHair), from, to));
+    };
+    const auto end = [](double greatest, int from, int to) {
+      return static_cast<int>(std::clamp<double>(greatest + (0.5 + kHair), from, to));
+    };
+    return {first(x - half_x, frame.x0, frame.x1), first(y - half_y, frame.y0, frame.y1),
+            end(x + half_x, frame.x0, frame.x1), end(y + half_y, frame.y0, frame.y1)};
+  }
+
   glm::dvec2 center_px_;
   Affine x_;
   Affine y_;
   Affine w_;
   bool perspective_;
+  static constexpr int kBrick = BrightBricks::kSide;
+  std::array<double, kBrick * kBrick * kBrick> cell_x_{};  ///< of a cell's centre, from the brick
+  std::array<double, kBrick * kBrick * kBrick> cell_y_{};
 };
 
 }  // namespace nacre

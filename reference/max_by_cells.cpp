@@ -5,9 +5,12 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <glm/common.hpp>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "reference/brick_samples.h"
@@ -55,15 +58,16 @@ class PlainMaximum {
   static constexpr bool kOrdered = true;  ///< bricks come the brightest first
 
   double upper(const BrightBrick& brick) const { return std::min(brick.greatest, emission_.hi()); }
-  double start(std::size_t, const PixelLine&) const { return emission_.lo(); }
+  double start(std::size_t, const PixelLine&, TileRays&) const { return emission_.lo(); }
   double shown(double best) const { return factor_ * emission_(best); }
 
-  void begin_brick(const LoadedBrick&) const {}
+  /// @return  the field that a cell of the brick must exceed for it to exceed `floor`
+  double begin_brick(const BrightBrick&, double floor) const { return floor; }
   double upper_of_cell(double greatest) const { return std::min(greatest, emission_.hi()); }
 
-  void raise(const LaneRays& rays, const BrickSamples& samples, const BrickCell& cell,
+  void raise(TileRays&, const LaneRays& lanes, const BrickSamples& samples, const BrickCell& cell,
              const LaneRectangle& rectangle) const {
-    kernel_.raise_maxima(rays, samples, cell, rectangle);
+    kernel_.raise_maxima(lanes, samples, cell, rectangle);
   }
 
  private:
@@ -72,6 +76,18 @@ class PlainMaximum {
   double factor_;
 };
 
+/// The least line from the first knot that the map stays below.
+EmissionBound bound_of(const EmissionMap& map) {
+  constexpr double kSafely = 1e-9;
+  const EmissionKnot& first = map.knots().front();
+  double slope = 0.0;
+  for (const EmissionKnot& knot : map.knots().subspan(1)) {
+    slope = std::max(slope, (knot.emission - first.emission) / (knot.value - first.value));
+  }
+  const double at_0 = first.emission - slope * first.value;
+  return {at_0 + kSafely * (1.0 + std::abs(at_0)), slope};
+}
+
 /// Cued: emission times cue.
 class CuedMaximum {
  public:
@@ -79,55 +95,54 @@ class CuedMaximum {
       : scene_(scene),
         cue_(cue),
         cell_cue_(*scene.field, cue),
-        beta_(static_cast<std::size_t>(TileRays::kSide) * TileRays::index(0, 1)) {}
+        bound_(bound_of(scene.field->emission_of_field)) {}
 
   static constexpr bool kOrdered = false;
 
   double upper(const BrightBrick& brick) const {
-    return scene_.field->emission_of_field(brick.greatest) *
-           cell_cue_.greatest(brick.first_cell, kBrick);
+    return brick.emission * cell_cue_.greatest(brick.first_cell, kBrick);
   }
 
-  double start(std::size_t ray, const PixelLine& pixel) {
+  double start(std::size_t ray, const PixelLine& pixel, TileRays& rays) const {
     const EnteredLine entered{pixel.line, pixel.visible, pixel.t_shift_mm};
-    beta_[ray] = scene_.field->along(cue_, Ray{{}, pixel.direction_mm}, entered);
+    const LineCue beta = scene_.field->along(cue_, Ray{{}, pixel.direction_mm}, entered);
+    rays.set_cue(ray, beta);
     const double darkest = scene_.field->emission_of_field.knots().front().emission;
     if (darkest == 0.0) return 0.0;
-    return darkest * std::max(beta_[ray](pixel.visible.t_enter), beta_[ray](pixel.visible.t_exit));
+    return darkest * std::max(beta(pixel.visible.t_enter), beta(pixel.visible.t_exit));
   }
 
   double shown(double best) const { return best; }
 
-  void begin_brick(const LoadedBrick& brick) {
+  double begin_brick(const BrightBrick& brick, double floor) {
     beta_of_brick_ = cell_cue_.greatest(brick.first_cell, kBrick);
+    return least_field_above(scene_.field->emission_of_field, floor / beta_of_brick_);
   }
   double upper_of_cell(double greatest) const {
     return scene_.field->emission_of_field(greatest) * beta_of_brick_;
   }
 
-  void raise(const LaneRays& rays, const BrickSamples& samples, const BrickCell& cell,
-             const LaneRectangle& rectangle) {
-    best_ = rays.best;
-    scene_.kernel.visit_parts(
-        rays, samples, cell, rectangle,
-        [](void* self, std::size_t ray, const CellPart& part) {
-          static_cast<CuedMaximum*>(self)->visit(ray, part);
-        },
-        this);
+  void raise(TileRays& rays, const LaneRays& lanes, const BrickSamples& samples,
+             const BrickCell& cell, const LaneRectangle& rectangle) const {
+    struct Context {
+      const CuedEmission& emission;
+      const TileRays& rays;
+      double* best;
+    } context{*scene_.emission, rays, lanes.best};
+    const auto visit = [](void* to, std::size_t ray, const CellPart& part) {
+      const auto& [emission, cues, best] = *static_cast<const Context*>(to);
+      const LineCue beta = cues.cue(ray);
+      best[ray] = emission.maximum_above(best[ray], {{part.b[0], part.b[1], part.b[2], part.b[3]}},
+                                         {beta(part.t_enter), beta(part.t_exit)});
+    };
+    scene_.kernel.visit_parts(lanes, samples, cell, rectangle, bound_, {visit, &context});
   }
 
  private:
-  void visit(std::size_t ray, const CellPart& part) {
-    const UnitCue cue{beta_[ray](part.t_enter), beta_[ray](part.t_exit)};
-    best_[ray] = scene_.emission->maximum_above(
-        best_[ray], {{part.b[0], part.b[1], part.b[2], part.b[3]}}, cue);
-  }
-
   const MaxByCells& scene_;
   CueField cue_;
   CellCue cell_cue_;
-  std::vector<LineCue> beta_;
-  double* best_ = nullptr;
+  EmissionBound bound_;
   double beta_of_brick_ = 0.0;
 };
 
@@ -140,6 +155,7 @@ struct Frame {
   CueField cue_field;
   PixelLines lines;
   CellRectangles rectangles;
+  std::vector<PixelRectangle> of_brick;  ///< of each bright brick
   TileLists lists;
 };
 
@@ -150,7 +166,7 @@ struct Workplace {
 
   Maximum maximum;
   TileRays rays;
-  LoadedBrick brick;
+  BrickSamples samples{};
   struct Item {
     double upper;
     std::uint32_t brick;
@@ -200,30 +216,31 @@ void start_rays(const Frame& frame, const PixelRectangle& tile, Workplace<Maximu
       line->visible.t_exit = std::min(line->visible.t_exit, t_tool - line->t_shift_mm);
       if (!(line->visible.t_enter < line->visible.t_exit)) continue;
       const std::size_t ray = TileRays::index(x - tile.x0, y - tile.y0);
-      work.rays.put(x - tile.x0, y - tile.y0, *line, work.maximum.start(ray, *line));
+      work.rays.put(x - tile.x0, y - tile.y0, *line, work.maximum.start(ray, *line, work.rays));
     }
   }
 }
 
+/// @param rectangle  the brick's, within the tile
+/// @param floor      the least of what is seen there
 template <class Maximum>
-void draw_brick(const Frame& frame, const PixelRectangle& tile, const PixelRectangle& rectangle,
-                double floor, const LaneRays& lanes, Workplace<Maximum>& work) {
-  LoadedBrick& brick = work.brick;
-  work.maximum.begin_brick(brick);
-  glm::ivec3 cell;
-  for (cell.z = 0; cell.z < brick.cells.z; ++cell.z) {
-    for (cell.y = 0; cell.y < brick.cells.y; ++cell.y) {
-      for (cell.x = 0; cell.x < brick.cells.x; ++cell.x) {
-        const auto index = static_cast<std::size_t>(cell.x + kBrick * (cell.y + kBrick * cell.z));
-        const double upper = work.maximum.upper_of_cell(brick.greatest[index]);
-        if (!(upper > floor)) continue;
-        const PixelRectangle pixels =
-            within(tile, frame.rectangles.of(brick.first_cell + cell, 1, rectangle));
-        if (pixels.empty()) continue;
-        work.maximum.raise(lanes, brick.samples, {cell.x, cell.y, cell.z, upper},
-                           {pixels.x0, pixels.y0, pixels.x1, pixels.y1});
-      }
-    }
+void draw_brick(const Frame& frame, const BrightBrick& brick, const PixelRectangle& tile,
+                const PixelRectangle& rectangle, double floor, const LaneRays& lanes,
+                Workplace<Maximum>& work) {
+  load_samples(*frame.scene.field, brick.first_cell, work.samples);
+  std::array<double, static_cast<std::size_t>(kBrick * kBrick * kBrick)> greatest;
+  unsigned long long cells = frame.scene.kernel.greatest_corners(
+      work.samples, work.maximum.begin_brick(brick, floor), greatest.data());
+  cells &= cells_within(glm::ivec3(frame.scene.field->cells) - brick.first_cell);
+  for (; cells != 0; cells &= cells - 1) {
+    const int cell = std::countr_zero(cells);
+    const PixelRectangle pixels =
+        within(tile, frame.rectangles.of_cell(brick.first_cell, cell, rectangle));
+    if (pixels.empty()) continue;
+    const double upper = work.maximum.upper_of_cell(greatest[static_cast<std::size_t>(cell)]);
+    work.maximum.raise(work.rays, lanes, work.samples,
+                       {cell % kBrick, cell / kBrick % kBrick, cell / kBrick / kBrick, upper},
+                       {pixels.x0, pixels.y0, pixels.x1, pixels.y1});
   }
 }
 
@@ -238,11 +255,10 @@ void draw_tile(const Frame& frame, std::size_t tile, Workplace<Maximum>& work, P
     const double upper = work.items[i].upper;
     if (i % kBetweenLooks == 0 && !(upper > work.rays.least_best(within(pixels, pixels)))) break;
     const BrightBrick& bright = frame.scene.bright->bricks[work.items[i].brick];
-    const PixelRectangle rectangle = frame.rectangles.of(bright.first_cell, kBrick, pixels);
+    const PixelRectangle rectangle = intersection(frame.of_brick[work.items[i].brick], pixels);
     const double floor = work.rays.least_best(within(pixels, rectangle));
     if (!(upper > floor)) continue;
-    load_brick(*frame.scene.field, bright.first_cell, work.brick);
-    draw_brick(frame, pixels, rectangle, floor, lanes, work);
+    draw_brick(frame, bright, pixels, rectangle, floor, lanes, work);
   }
   for (int y = pixels.y0; y < pixels.y1; ++y) {
     for (int x = pixels.x0; x < pixels.x1; ++x) {
@@ -290,6 +306,8 @@ Picture max_picture_by_cells(const MaxByCells& scene, const Camera& camera, cons
                              const Slab& slab, const ToolRays* tools,
                              const ProgressCallback& progress) {
   const CellRectangles rectangles(*scene.field, camera);
+  std::vector<PixelRectangle> of_brick = rectangles_of(*scene.bright, rectangles, camera.size);
+  TileLists lists = make_tile_lists(of_brick, camera.size, TileRays::kSide);
   const Frame frame{scene,
                     camera,
                     cue,
@@ -297,8 +315,8 @@ Picture max_picture_by_cells(const MaxByCells& scene, const Camera& camera, cons
                     nacre::cue_field(cue, camera),
                     PixelLines(*scene.field, camera, slab),
                     rectangles,
-                    make_tile_lists(rectangles_of(*scene.bright, rectangles, camera.size),
-                                    camera.size, TileRays::kSide)};
+                    std::move(of_brick),
+                    std::move(lists)};
   Picture picture{make_image(camera.size.x, camera.size.y), std::nullopt};
   if (tools != nullptr && !tools->empty()) {
     picture.tools = make_tool_layer(camera.size.x, camera.size.y);

@@ -95,8 +95,8 @@ LaneRays TileRays::lanes() {
   const auto [ix, iy, iz] = three(kInverse);
   const auto [sx, sy, sz] =
       any_slack_ ? three(kSlack) : std::array<double*, 3>{nullptr, nullptr, nullptr};
-  return {{ox, oy, oz},   {dx, dy, dz}, {ix, iy, iz},  {sx, sy, sz},
-          column(kBegin), column(kEnd), column(kBest), kStride};
+  return {{ox, oy, oz}, {dx, dy, dz},  {ix, iy, iz},    {sx, sy, sz},      column(kBegin),
+          column(kEnd), column(kBest), column(kBetaAt), column(kBetaRise), kStride};
 }
 
 double TileRays::least_best(const PixelRectangle& rectangle) const {

@@ -62,6 +62,13 @@ class TileRays {
   /// @param x, y  within the tile
   void put(int x, int y, const PixelLine& ray, double best);
 
+  /// The cue along a ray that was put.
+  void set_cue(std::size_t ray, const LineCue& beta) {
+    column(kBetaAt)[ray] = beta.at_enter;
+    column(kBetaRise)[ray] = beta.rise_per_mm;
+  }
+  LineCue cue(std::size_t ray) const { return {column(kBetaAt)[ray], column(kBetaRise)[ray]}; }
+
   /// The arrays, as put so far.
   LaneRays lanes();
 
@@ -83,6 +90,8 @@ class TileRays {
     kBegin = 12,
     kEnd,
     kBest,
+    kBetaAt,
+    kBetaRise,
     kColumns
   };
   static constexpr std::size_t kPadding = 4;  ///< a vector
