@@ -46,6 +46,9 @@ export class FrameLoop {
 
   isMoving(): boolean { return performance.now() - this.movedAt < restAfter; }
 
+  /** Whether what is on the screen is the last that was asked for. */
+  isSettled(): boolean { return !this.dirty && !this.fence; }
+
   currentScale(): number { return this.isMoving() ? this.scale : 1; }
 
   /** After a lost context: what was in flight never ends. */

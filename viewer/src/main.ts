@@ -21,7 +21,11 @@ async function ownSet(): Promise<Uint8Array | null> {
     if (!answer.ok) throw new Error(`the server answered ${answer.status}`);
     return new Uint8Array(await answer.arrayBuffer());
   }
-  return Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
+  try {
+    return Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
+  } catch {
+    return new Uint8Array(); // cut off or changed: no shell set, which is said
+  }
 }
 
 /** The address follows the state, at most a few times a second. */
@@ -60,7 +64,7 @@ function showProgress(viewer: Viewer): void {
   bar.hidden = loaded >= wanted;
   bar.setAttribute("aria-valuenow", String(share));
   (bar.firstElementChild as HTMLElement).style.width = `${share}%`;
-  if (viewer.set) page.dataset.state = loaded >= wanted ? "ready" : "loading";
+  if (viewer.set && viewer.loop.isSettled()) page.dataset.state = loaded >= wanted ? "ready" : "loading";
   if (problem) {
     say(`${problem}. The picture is shown without it.`, "small");
     viewer.loader.problem = "";
@@ -108,6 +112,7 @@ async function start(): Promise<void> {
   keepAddress(viewer);
   viewer.state = stateOf(location.hash);
   viewer.listen((what) => {
+    if (viewer.set && (what === "state" || what === "tools")) page.dataset.state = "drawing";
     if (what === "frame" || what === "loading") showProgress(viewer);
     if (what === "frame") showStatus(viewer);
     if (what === "frame") overlay.update(viewer.camera(), viewer.canvas.clientWidth);
