@@ -71,17 +71,19 @@ export async function open(browser, url, size = { width: 822, height: 512 }, opt
   page.on("pageerror", (error) => page.problems.push(error.message));
   page.on("console", (message) => { if (message.type() === "error") page.problems.push(message.text()); });
   await page.goto(url);
+  await page.addStyleTag({ content: "#status { visibility: hidden }" }); // frame times differ
   await settled(page);
   return page;
 }
 
-/** Goes to another view by the address, as a link does. */
+let visits = 0;
+
+/** Goes to another view by the address, as a link does. The number makes each address a new one. */
 export async function goTo(page, hash) {
   await page.evaluate((to) => {
-    if (location.hash.replace(/^#/, "") === to) return;
     document.documentElement.dataset.state = "drawing";
     location.hash = to;
-  }, hash);
+  }, `${hash}&visit=${++visits}`);
   await settled(page);
 }
 
