@@ -48,8 +48,8 @@ void require_page(std::string_view output) {
 
 std::string page_with_set(std::span<const std::byte> set) { return page_with(base64(set)); }
 
-std::string page_that_fetches(std::string_view address) {
-  return page_with(fmt::format("fetch:{}", address));
+std::string page_that_fetches(bool live) {
+  return page_with(live ? "live:set.glb" : "fetch:set.glb");
 }
 
 }  // namespace nacre

@@ -18,8 +18,9 @@ void require_page(std::string_view output);
 /// @pre  `require_page` does not throw
 std::string page_with_set(std::span<const std::byte> set);
 
-/// The viewer's page that fetches its set from `address`.
+/// The viewer's page that fetches its set from the server it came from.
+/// @param live  whether that server makes shells of new levels
 /// @pre  `require_page` does not throw
-std::string page_that_fetches(std::string_view address);
+std::string page_that_fetches(bool live);
 
 }  // namespace nacre

@@ -102,7 +102,7 @@ test("perspective, distance, roll and zoom", async () => {
   await changes("perspective", () => setNumber("perspective", 60), /perspective=60/);
   await changes("distance", () => setNumber("distance", 90), /distance=90/);
   await changes("roll", () => setNumber("roll", 30), /roll=30/);
-  await changes("zoom", () => setNumber("zoom", 1), /zoom=2/);
+  await changes("zoom", () => setNumber("zoom", 2), /zoom=2/);
   await changes("reset", () => page.click("#reset"), /^$/);
   await page.locator("#picture").focus();
   await changes("p", () => page.keyboard.press("p"), /perspective=40/);

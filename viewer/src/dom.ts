@@ -25,13 +25,15 @@ export class Slider {
   private readonly range: HTMLInputElement;
   private readonly number: HTMLInputElement;
 
-  constructor(name: string, changed: (value: number) => void) {
+  /** @param logarithmic  the slider's place is the logarithm (base 2) of the value */
+  constructor(name: string, changed: (value: number) => void, private readonly logarithmic = false) {
     const row = document.querySelector<HTMLElement>(`[data-slider="${name}"]`)!;
     const label = row.dataset.name!;
     this.range = element("input", { type: "range", id: `slider-${name}` });
     this.number = element("input", { type: "number", "aria-label": `${label}, as a number` });
     row.append(element("label", { for: `slider-${name}` }, label), this.range, this.number);
-    this.range.addEventListener("input", () => changed(this.range.valueAsNumber));
+    this.range.addEventListener("input", () => changed(
+      logarithmic ? 2 ** this.range.valueAsNumber : this.range.valueAsNumber));
     this.number.addEventListener("change", () => {
       if (Number.isFinite(this.number.valueAsNumber)) changed(this.number.valueAsNumber);
     });
@@ -43,7 +45,7 @@ export class Slider {
   }
 
   show(value: number): void {
-    this.range.value = String(value);
+    this.range.value = String(this.logarithmic ? Math.log2(value) : value);
     if (document.activeElement !== this.number) this.number.value = String(Number(value.toPrecision(5)));
   }
 

@@ -1,13 +1,9 @@
 /**
  * When to draw: only when something changed, never more than one frame ahead of the graphics side.
- * While the picture moves and frames run late, it has fewer pixels.
+ * While the picture moves and frames run late, it has less detail.
  */
-import { clamp } from "./vector";
+import { Detail } from "./detail";
 
-/** A frame later than this, in ms, takes pixels away; one much earlier gives some back. */
-const lateFrame = 34;
-const earlyFrame = 16;
-const smallestScale = 0.4;
 const restAfter = 250;
 
 export class FrameLoop {
@@ -15,8 +11,8 @@ export class FrameLoop {
   milliseconds = 0;
   /** Frames in the last second. */
   rate = 0;
-  /** Of the device's pixels, in each direction. */
-  scale = 1;
+  /** Of pictures that move. */
+  readonly detail = new Detail();
   private dirty = false;
   private scheduled = false;
   private fence: WebGLSync | null = null;
@@ -24,6 +20,8 @@ export class FrameLoop {
   private movedAt = -Infinity;
   private restTimer = 0;
   private ends: number[] = [];
+  /** Whether the last frame had less detail than one at rest. */
+  private reduced = false;
 
   constructor(
     private readonly gl: WebGL2RenderingContext,
@@ -47,9 +45,13 @@ export class FrameLoop {
   isMoving(): boolean { return performance.now() - this.movedAt < restAfter; }
 
   /** Whether what is on the screen is the last that was asked for. */
-  isSettled(): boolean { return !this.dirty && !this.fence; }
+  isSettled(): boolean { return !this.dirty && !this.fence && !this.reduced; }
 
-  currentScale(): number { return this.isMoving() ? this.scale : 1; }
+  /** Of the device's pixels, in each direction. */
+  scale(): number { return this.isMoving() ? this.detail.scale : 1; }
+
+  /** Every how many of the shells shown is drawn. */
+  stride(): number { return this.isMoving() ? this.detail.stride : 1; }
 
   /** After a lost context: what was in flight never ends. */
   restart(): void {
@@ -58,7 +60,7 @@ export class FrameLoop {
   }
 
   private rest(): void {
-    if (this.scale < 1) this.invalidate();
+    if (this.reduced) this.invalidate();
   }
 
   private schedule(): void {
@@ -72,6 +74,7 @@ export class FrameLoop {
     if (!this.dirty || this.fence) return;
     this.dirty = false;
     this.started = performance.now();
+    this.reduced = this.scale() < 1 || this.stride() > 1;
     this.draw();
     this.fence = this.gl.fenceSync(this.gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
     this.gl.flush();
@@ -96,13 +99,7 @@ export class FrameLoop {
     this.milliseconds = now - this.started;
     this.ends = [...this.ends.filter((end) => end > now - 1000), now];
     this.rate = this.ends.length;
-    if (this.isMoving()) this.adapt();
+    if (this.isMoving()) this.detail.account(this.milliseconds);
     this.measured();
-  }
-
-  private adapt(): void {
-    if (this.milliseconds > lateFrame) this.scale *= 0.85;
-    else if (this.milliseconds < earlyFrame) this.scale *= 1.05;
-    this.scale = clamp(this.scale, smallestScale, 1);
   }
 }

@@ -2,6 +2,7 @@
 import { Actions, bindKeys } from "./actions";
 import { byId } from "./dom";
 import { Gestures } from "./gestures";
+import { LiveLevels } from "./live";
 import { say } from "./message";
 import { Overlay } from "./overlay";
 import { Panel } from "./panel";
@@ -12,12 +13,15 @@ import { Viewer } from "./viewer";
 
 const page = document.documentElement;
 
-/** The set as the page has it: its bytes in base64, "fetch:ADDRESS", or none. */
+const setText = byId("nacre-set").textContent!.trim();
+const isLive = setText.startsWith("live:");
+
+/** The set as the page has it: its bytes in base64, "fetch:ADDRESS", "live:ADDRESS", or none. */
 async function ownSet(): Promise<Uint8Array | null> {
-  const text = byId("nacre-set").textContent!.trim();
+  const text = setText;
   if (text === "" || text.startsWith("/*")) return null;
-  if (text.startsWith("fetch:")) {
-    const answer = await fetch(text.slice("fetch:".length));
+  if (isLive || text.startsWith("fetch:")) {
+    const answer = await fetch(text.slice(text.indexOf(":") + 1));
     if (!answer.ok) throw new Error(`the server answered ${answer.status}`);
     return new Uint8Array(await answer.arrayBuffer());
   }
@@ -52,9 +56,10 @@ function showStatus(viewer: Viewer): void {
   const { loop, canvas } = viewer;
   const pixels = `${canvas.width} × ${canvas.height}`;
   const speed = loop.isMoving() && loop.rate > 1 ? `, ${loop.rate} a second` : "";
+  const shells = loop.stride() > 1 ? `, 1 shell of ${loop.stride()} while it moves` : "";
   const thousands = Math.round(viewer.triangles / 1000).toLocaleString("en");
   byId("status").textContent =
-    `${loop.milliseconds.toFixed(1)} ms a frame${speed}\n${thousands}k triangles, ${pixels}`;
+    `${loop.milliseconds.toFixed(1)} ms a frame${speed}\n${thousands}k triangles, ${pixels}${shells}`;
 }
 
 function showProgress(viewer: Viewer): void {
@@ -104,7 +109,8 @@ async function start(): Promise<void> {
   const actions = new Actions(viewer);
   const overlay = new Overlay(byId("overlay"));
   new Gestures(viewer);
-  new Panel(viewer, actions);
+  const panel = new Panel(viewer, actions);
+  if (isLive) panel.shells.live = new LiveLevels(viewer);
   new PoseHandles(viewer);
   bindKeys(actions);
   bindFiles(viewer, actions);

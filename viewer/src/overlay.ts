@@ -38,7 +38,7 @@ export class Overlay {
     const usable = mmPerCssPixel > 0 && Number.isFinite(mmPerCssPixel);
     bar.hidden = !usable;
     if (!usable) return;
-    const mm = scaleLength(Math.min(160, cssWidth / 4) * mmPerCssPixel);
+    const mm = scaleLength(Math.min(160, cssWidth / 3) * mmPerCssPixel);
     bar.style.width = `${mm / mmPerCssPixel}px`;
     bar.textContent = `${mm} mm${camera.perspective ? " at the centre" : ""}`;
   }

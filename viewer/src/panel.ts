@@ -19,7 +19,7 @@ const modeNotes: Record<Mode, string> = {
 
 export class Panel {
   private readonly sliders: Record<string, Slider>;
-  private readonly shells: ShellList;
+  readonly shells: ShellList;
   private readonly tools: ToolList;
 
   constructor(private readonly viewer: Viewer, private readonly actions: Actions) {
@@ -51,7 +51,7 @@ export class Panel {
         viewer.changeCamera({ perspective: clamp(value, 0, 170), distance: null }, true)),
       distance: new Slider("distance", (value) => camera("distance")(Math.max(0, value))),
       roll: new Slider("roll", camera("roll")),
-      zoom: new Slider("zoom", (value) => camera("zoom")(2 ** value)),
+      zoom: new Slider("zoom", (value) => camera("zoom")(clamp(value, 0.05, 200)), true),
       a: new Slider("a", cue("a")), b: new Slider("b", cue("b")), beta0: new Slider("beta0", cue("beta0")),
       "slab-near": new Slider("slab-near", (lo) => this.setSlab(lo, null)),
       "slab-far": new Slider("slab-far", (hi) => this.setSlab(null, hi)),
@@ -168,7 +168,7 @@ export class Panel {
     sliders.distance.enable(camera.perspective > 0);
     sliders.distance.show(eye);
     sliders.roll.show(camera.roll);
-    sliders.zoom.show(Math.log2(camera.zoom));
+    sliders.zoom.show(camera.zoom);
     for (const key of ["a", "b", "beta0"] as const) sliders[key].show(cue[key]);
     for (const [name, value] of [["slab-near", slab.lo], ["slab-far", slab.hi]] as const) {
       sliders[name].limits(-Math.ceil(radius), Math.ceil(radius), radius / 200);

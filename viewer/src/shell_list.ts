@@ -1,10 +1,13 @@
 /** The list of shells, brightest first: shown and hidden one by one. */
 import { cssColor } from "./color_maps";
 import { byId, element, onClick } from "./dom";
+import type { LiveLevels } from "./live";
 import type { Level } from "./shell_set";
 import type { Viewer } from "./viewer";
 
 export class ShellList {
+  /** Where the server makes levels; they can then be moved and deleted. */
+  live: LiveLevels | null = null;
   private rows: { index: number; check: HTMLInputElement; swatch: HTMLElement }[] = [];
 
   constructor(private readonly viewer: Viewer) {
@@ -44,6 +47,22 @@ export class ShellList {
     row.title = `Shell ${index + 1}: emission ${level.emission}, shown as ${level.representative}`;
     check.setAttribute("aria-label",
       `Shell ${index + 1}, emission ${level.emission.toFixed(3)}, ${triangles} triangles`);
+    return this.live ? this.withLive(this.live, row, level, words) : row;
+  }
+
+  /** The level as a field, and a way to delete it. */
+  private withLive(live: LiveLevels, row: HTMLElement, level: Level, words: HTMLElement): HTMLElement {
+    const field = element("input", { type: "number", step: "any", min: "0.001", max: "1",
+      value: String(Number(level.emission.toFixed(6))), "aria-label": `Emission of the level at ${level.emission}` });
+    field.addEventListener("change", () => void live.move(level, field.valueAsNumber));
+    const remove = element("button", { type: "button", "aria-label": `Delete the level at ${level.emission}` }, "×");
+    remove.addEventListener("click", (event) => {
+      event.preventDefault();
+      live.remove(level);
+    });
+    words.replaceChildren(field);
+    row.classList.add("live");
+    row.append(remove);
     return row;
   }
 

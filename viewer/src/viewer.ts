@@ -102,7 +102,7 @@ export class Viewer {
 
   /** This view as a PNG, drawn anew at that size. */
   async save(width: number, height: number): Promise<Blob> {
-    const frame = this.frame(this.camera(width, height));
+    const frame = this.frame(this.camera(width, height), this.state.hidden);
     const blob = await pngOf(this.gl, width, height, (target) =>
       this.renderer.draw(frame, this.display(), target));
     this.loop.invalidate();
@@ -118,11 +118,11 @@ export class Viewer {
     return { mode, colorMap, over, window: this.window() };
   }
 
-  private frame(camera: Camera): Frame {
+  private frame(camera: Camera, hidden: ReadonlySet<number>): Frame {
     const levels = this.set?.levels ?? [];
     const tools = this.shelf.scene();
     const scene: Scene = { center: this.set?.center ?? [0, 0, 0], shells: levels, tools: tools.bounds };
-    const options: PictureOptions = this.state;
+    const options: PictureOptions = { ...this.state, hidden };
     const plan = makePlan(scene, camera, options);
     return {
       camera, plan, origin: scene.center, tools: tools.gpu,
@@ -130,15 +130,26 @@ export class Viewer {
     };
   }
 
+  /** Those hidden, and of the others all but every so many while the picture moves too slowly. */
+  private hiddenNow(): Set<number> {
+    const hidden = new Set(this.state.hidden);
+    const stride = this.state.mode === "iso" ? 1 : this.loop.stride();
+    let shown = 0;
+    for (let k = (this.set?.levels.length ?? 0) - 1; stride > 1 && k >= 0; --k) {
+      if (!hidden.has(k) && shown++ % stride !== 0) hidden.add(k);
+    }
+    return hidden;
+  }
+
   private draw(): void {
     if (this.gl.isContextLost()) return;
     const { canvas } = this;
-    const ratio = Math.min(window.devicePixelRatio, mostPixelRatio) * this.loop.currentScale();
+    const ratio = Math.min(window.devicePixelRatio, mostPixelRatio) * this.loop.scale();
     const width = Math.max(1, Math.round(canvas.clientWidth * ratio));
     const height = Math.max(1, Math.round(canvas.clientHeight * ratio));
     if (canvas.width !== width) canvas.width = width;
     if (canvas.height !== height) canvas.height = height;
-    const frame = this.frame(this.camera(width, height));
+    const frame = this.frame(this.camera(width, height), this.hiddenNow());
     this.plan = frame.plan;
     const levels = this.set?.levels ?? [];
     this.loader.want(frame.plan.wanted.map((k) => levels[k]), frame.plan.normals);
@@ -154,7 +165,7 @@ export class Viewer {
     const side = ownWindowSide / Math.max(frame.camera.width, frame.camera.height);
     const camera = this.camera(
       Math.round(frame.camera.width * side), Math.round(frame.camera.height * side));
-    const largest = this.renderer.largest(this.frame(camera));
+    const largest = this.renderer.largest(this.frame(camera, this.state.hidden));
     if (largest > 0) this.largest.set(mode, largest);
     this.tell("state");
   }
