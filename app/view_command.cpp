@@ -3,14 +3,16 @@
 #include <spawn.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <memory>
-#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/page_server.h"
@@ -57,12 +59,22 @@ std::vector<std::byte> built_set(const ShellFlags& flags, EmissionVolume input,
   return assemble_shell_set(built.set, built.shells);
 }
 
+/// Building takes a volume away; this one stays for the next level.
+EmissionVolume copy_of(const EmissionVolume& input) {
+  Volume copy = make_volume(input.volume.dims, input.volume.type);
+  std::copy_n(input.volume.samples.data(), input.volume.samples.size(), copy.samples.data());
+  copy.slope = input.volume.slope;
+  copy.intercept = input.volume.intercept;
+  copy.world_from_voxel = input.volume.world_from_voxel;
+  return {std::move(copy), input.emission};
+}
+
 /// A shell file with the one level at that emission.
 std::vector<std::byte> set_of_level(ShellFlags flags, const EmissionVolume& input, double emission,
                                     Reporter& reporter) {
   flags.levels = fmt::format("{:.9f}", emission);
   flags.level_values.clear();
-  return built_set(flags, input, reporter);
+  return built_set(flags, copy_of(input), reporter);
 }
 
 /// Opens the address where a desktop is; where none is, the address has been said.
@@ -95,10 +107,12 @@ void serve(const ViewFlags& flags, ServedPage served, Reporter& reporter) {
 }
 
 void view_volume(const ViewFlags& flags, Reporter& reporter) {
-  const EmissionVolume input = read_emission_volume(flags.volume, reporter);
+  EmissionVolume input = read_emission_volume(flags.volume, reporter);
+  if (!flags.output.empty()) {
+    return write_page(flags.output, built_set(flags.shells, std::move(input), reporter), reporter);
+  }
   ServedPage served;
-  served.set = built_set(flags.shells, input, reporter);
-  if (!flags.output.empty()) return write_page(flags.output, served.set, reporter);
+  served.set = built_set(flags.shells, copy_of(input), reporter);
   served.level = [&](double emission) {
     return set_of_level(flags.shells, input, emission, reporter);
   };
@@ -115,9 +129,10 @@ void run_view(const ViewFlags& flags) {
   if (flags.output.empty()) hold_signals();
   const ThreadLimit limit(flags.common);
   if (!is_shell_file(flags.volume.path)) return view_volume(flags, reporter);
-  const std::vector<std::byte> set = checked_set(flags.volume.path);
-  if (!flags.output.empty()) return write_page(flags.output, set, reporter);
-  serve(flags, {.set = set}, reporter);
+  ServedPage served;
+  served.set = checked_set(flags.volume.path);
+  if (!flags.output.empty()) return write_page(flags.output, served.set, reporter);
+  serve(flags, std::move(served), reporter);
 }
 
 }  // namespace

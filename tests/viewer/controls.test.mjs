@@ -1,7 +1,7 @@
 // Every control, operated as a user would, and its effect seen in the picture or the address.
 import assert from "node:assert/strict";
 import { after, before, beforeEach, test } from "node:test";
-import { goTo, inFolder, launch, look, makeAngiogram, nacre, open, psnr, savePicture, settled, writeTool } from "./support.mjs";
+import { goTo, inFolder, launch, look, makeAngiogram, nacre, open, psnr, savePicture, settled, toolPose, writeTool } from "./support.mjs";
 
 const browser = await launch();
 let page;
@@ -214,6 +214,10 @@ test("a tool: colour, scale, pose, handles by hand and key, removal", async () =
   await page.locator("#tool-list textarea").fill("1 2 3");
   await page.locator("#tool-list textarea").blur();
   assert.match(await page.textContent("#message"), /found 3 numbers, expected 16/);
+  await changes("pose", async () => {
+    await page.locator("#tool-list textarea").fill(toolPose);
+    await page.locator("#tool-list textarea").blur();
+  });
   await changes("over", () => page.check("#over"), /tool-blend=over/);
   await changes("remove", () => page.locator("#tool-list button").click());
   assert.equal(await handles.count(), 0);

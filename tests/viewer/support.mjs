@@ -27,7 +27,8 @@ export async function launch() {
   const { chromium } = createRequire(join(modules, "here.js"))("playwright-core");
   return chromium.launch({
     executablePath,
-    args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist"],
+    // Software WebGL; the page itself is composed without it, as on a machine without a GPU.
+    args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-gpu-compositing"],
   });
 }
 
@@ -71,7 +72,7 @@ export async function open(browser, url, size = { width: 822, height: 512 }, opt
   page.on("pageerror", (error) => page.problems.push(error.message));
   page.on("console", (message) => { if (message.type() === "error") page.problems.push(message.text()); });
   await page.goto(url);
-  await page.addStyleTag({ content: "#status { visibility: hidden }" }); // frame times differ
+  await page.addStyleTag({ content: "#status, #message.small { opacity: 0 }" }); // what is not of the picture
   await settled(page);
   return page;
 }

@@ -19,12 +19,15 @@ export class Detail {
   scale = 1;
   /** Every how many of the shells shown is drawn. */
   stride = 1;
+  /** Whether moving pictures are whole, however late (?detail=full, for measuring). */
+  isFixed = false;
   private times: number[] = [];
   /** The time before pixels were taken away, while it is not known whether that helped. */
   private before = 0;
   private byTriangles = false;
 
   account(milliseconds: number): void {
+    if (this.isFixed) return;
     this.times.push(milliseconds);
     if (this.times.length < judged) return;
     const median = [...this.times].sort((a, b) => a - b)[Math.floor(judged / 2)];
@@ -38,7 +41,7 @@ export class Detail {
     if (median > gain * this.before) {
       this.byTriangles = true;
       this.scale = 1;
-      this.stride = Math.min(2, largestStride);
+      this.stride = 2;
     }
     this.before = 0;
   }

@@ -97,15 +97,18 @@ function bindPanelToggle(): void {
   });
 }
 
+const asked = new URLSearchParams(location.search);
+
 /** Which float targets to use at most, for trying what lesser devices show: ?floats=half. */
 function floatsWanted(): FloatTargets {
-  const given = new URLSearchParams(location.search).get("floats");
+  const given = asked.get("floats");
   return given === "half" || given === "none" ? given : "float";
 }
 
 async function start(): Promise<void> {
   page.dataset.state = "starting";
   const viewer = new Viewer(byId<HTMLCanvasElement>("picture"), byId("nacre-decoder").textContent!, floatsWanted());
+  viewer.loop.detail.isFixed = asked.get("detail") === "full";
   const actions = new Actions(viewer);
   const overlay = new Overlay(byId("overlay"));
   new Gestures(viewer);
