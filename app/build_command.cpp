@@ -4,9 +4,11 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
+#include <span>
 
 #include "app/shell_building.h"
 #include "app/thread_limit.h"
+#include "app/view_page.h"
 #include "core/error.h"
 #include "core/volume_geometry.h"
 #include "io/atomic_file.h"
@@ -45,8 +47,15 @@ ordered_json level_list(const CompressedSet& built) {
 
 void check_name(const std::string& output) {
   if (std::filesystem::path(output).extension() == ".glb") return;
+  if (is_page_name(output)) return require_page(output);
   throw Error(ErrorCode::BadArgument,
-              fmt::format("{}: found another ending, expected .glb", output));
+              fmt::format("{}: found another ending, expected .glb or .html", output));
+}
+
+/// The set, or the page that shows it.
+void write_output(AtomicFile& file, const std::string& output, std::span<const std::byte> set) {
+  is_page_name(output) ? file.write(page_with_set(set)) : file.write(set);
+  file.commit();
 }
 
 void run_build(const BuildFlags& flags) {
@@ -67,8 +76,7 @@ void run_build(const BuildFlags& flags) {
   for (const ordered_json& level : levels) reporter.detail("  " + level.dump());
   const std::vector<std::byte> bytes = assemble_shell_set(set, built.shells);
   watch.lap();
-  file.write(bytes);
-  file.commit();
+  write_output(file, flags.output, bytes);
   const double writing = watch.lap();
 
   reporter.say(fmt::format("{} shells, {} triangles, {} bytes -> {}", set.shells.size(),
@@ -98,12 +106,18 @@ void run_build(const BuildFlags& flags) {
 }  // namespace
 
 void add_build_verb(CLI::App& app, int& /*status*/) {
-  CLI::App* verb = app.add_subcommand("build", "A volume becomes a shell set (.glb)");
-  verb->footer("Example: nacre build head.nii.gz --window 20,230 --levels 48 -o head.glb");
+  CLI::App* verb = app.add_subcommand(
+      "build", "A volume becomes a shell set (.glb), or a page that shows it (.html)");
+  verb->footer(
+      "Example: nacre build head.nii.gz --window 20,230 --levels 48 -o head.glb\n"
+      "         nacre build head.nii.gz --window 20,230 --tolerance 0.02 -o head.html");
   auto flags = std::make_shared<BuildFlags>();
   verb->add_option("VOLUME", flags->volume.path, "Volume file, or folder of a DICOM series")
       ->required();
-  verb->add_option("-o,--output", flags->output, "Shell set, .glb")->required();
+  verb->add_option(
+          "-o,--output", flags->output,
+          "Shell set, .glb; or .html: a page that holds the set and shows it in a browser, offline")
+      ->required();
   add_shell_flags(*verb, flags->shells);
   add_volume_reading_flags(*verb, flags->volume);
   add_emission_flags(*verb, flags->volume);

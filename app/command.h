@@ -86,6 +86,7 @@ int run_nacre(int argc, char** argv);
 
 // The verbs. Each adds itself to the application; its callback sets `status` where it is not 0.
 void add_build_verb(CLI::App& app, int& status);
+void add_view_verb(CLI::App& app, int& status);
 void add_phantom_verb(CLI::App& app, int& status);
 void add_reference_verb(CLI::App& app, int& status);
 void add_render_verb(CLI::App& app, int& status);

@@ -69,6 +69,7 @@ int run_nacre(int argc, char** argv) {
 
   add_phantom_verb(app, status);
   add_build_verb(app, status);
+  add_view_verb(app, status);
   add_render_verb(app, status);
   add_reference_verb(app, status);
   add_compare_verb(app, status);

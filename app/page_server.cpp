@@ -1,0 +1,123 @@
+#include "app/page_server.h"
+
+#include <fmt/core.h>
+#include <httplib.h>
+#include <pthread.h>
+
+#include <charconv>
+#include <csignal>
+#include <ctime>
+#include <mutex>
+#include <stop_token>
+#include <thread>
+
+#include "core/error.h"
+
+namespace nacre {
+namespace {
+
+constexpr const char* kHost = "127.0.0.1";
+
+sigset_t ending_signals() {
+  sigset_t signals;
+  sigemptyset(&signals);
+  sigaddset(&signals, SIGINT);
+  sigaddset(&signals, SIGTERM);
+  return signals;
+}
+
+/// Stops the server when a signal comes; looks now and then whether it has stopped by itself.
+void stop_on_signal(const std::stop_token& done, httplib::Server& server) {
+  const sigset_t signals = ending_signals();
+  const timespec wait{0, 200'000'000};
+  while (!done.stop_requested()) {
+    if (sigtimedwait(&signals, nullptr, &wait) > 0) return server.stop();
+  }
+}
+
+/// Whether the request names this host, by number or as localhost, whatever the port.
+bool is_for_loopback(const httplib::Request& request) {
+  const std::string host = request.get_header_value("Host");
+  const std::string name = host.substr(0, host.rfind(':'));
+  return name == kHost || name == "localhost";
+}
+
+void set_content(httplib::Response& response, const std::vector<std::byte>& bytes) {
+  response.set_content(reinterpret_cast<const char*>(bytes.data()), bytes.size(),
+                       "model/gltf-binary");
+}
+
+/// A level's emission as the request gives it; 0 if it is none.
+double emission_of(const httplib::Request& request) {
+  const std::string text = request.get_param_value("emission");
+  double emission = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), emission);
+  const bool fits = error == std::errc() && end == text.data() + text.size();
+  return fits && emission > 0.0 && emission <= 1.0 ? emission : 0.0;
+}
+
+void answer_level(const ServedPage& served, std::mutex& one_at_a_time,
+                  const httplib::Request& request, httplib::Response& response) {
+  const double emission = emission_of(request);
+  if (emission == 0.0) {
+    response.status = 400;
+    return response.set_content("found no emission, expected one above 0 and up to 1",
+                                "text/plain");
+  }
+  const std::lock_guard lock(one_at_a_time);
+  try {
+    set_content(response, served.level(emission));
+  } catch (const std::exception& error) {
+    response.status = 500;
+    response.set_content(error.what(), "text/plain");
+  }
+}
+
+void add_answers(httplib::Server& server, const ServedPage& served, std::mutex& one_at_a_time) {
+  using Request = httplib::Request;
+  using Response = httplib::Response;
+  server.set_default_headers(
+      {{"Cache-Control", "no-store"}, {"X-Content-Type-Options", "nosniff"}});
+  server.set_pre_routing_handler([](const Request& request, Response& response) {
+    if (is_for_loopback(request)) return httplib::Server::HandlerResponse::Unhandled;
+    response.status = 403;
+    return httplib::Server::HandlerResponse::Handled;
+  });
+  server.Get("/", [&served](const Request&, Response& response) {
+    response.set_content(served.html, "text/html");
+  });
+  server.Get("/set.glb",
+             [&served](const Request&, Response& response) { set_content(response, served.set); });
+  if (!served.level) return;
+  server.Post("/level", [&](const Request& request, Response& response) {
+    answer_level(served, one_at_a_time, request, response);
+  });
+}
+
+}  // namespace
+
+void hold_signals() {
+  const sigset_t signals = ending_signals();
+  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+}
+
+void serve_page(const ServedPage& served, int port,
+                const std::function<void(const std::string& address)>& ready) {
+  hold_signals();
+  httplib::Server server;
+  std::mutex one_at_a_time;
+  add_answers(server, served, one_at_a_time);
+  const int bound = port == 0                          ? server.bind_to_any_port(kHost)
+                    : server.bind_to_port(kHost, port) ? port
+                                                       : -1;
+  if (bound <= 0) {
+    throw Error(ErrorCode::Unsupported,
+                fmt::format("port {}: found it taken, expected a free one", port));
+  }
+  ready(fmt::format("http://{}:{}/", kHost, bound));
+  const std::jthread stopper(
+      [&server](const std::stop_token& done) { stop_on_signal(done, server); });
+  server.listen_after_bind();
+}
+
+}  // namespace nacre

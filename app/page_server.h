@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace nacre {
+
+/// What a server gives away, and nothing else: the page, the set it fetches, and where there is a
+/// volume the shell of any level.
+struct ServedPage {
+  std::string html;
+  std::vector<std::byte> set;
+  /// A shell file with the one level at that emission, in (0, 1]; empty where there is no volume.
+  std::function<std::vector<std::byte>(double emission)> level = {};
+};
+
+/// Serves on the loopback interface until this process is told to end by SIGINT or SIGTERM.
+///
+/// Requests that name another host than the loopback one are refused (a page of somebody else's
+/// cannot read the set by way of a name of its own). Call it before threads are started: the two
+/// signals are then blocked in all of them.
+///
+/// @param port   0: any that is free
+/// @param ready  told the address once requests are answered
+/// @throws Error  Unsupported if the port is taken, or in a build without the HTTP library
+void serve_page(const ServedPage& served, int port,
+                const std::function<void(const std::string& address)>& ready);
+
+/// Blocks SIGINT and SIGTERM in this thread and those it starts, so that `serve_page` waits for
+/// them.
+void hold_signals();
+
+}  // namespace nacre

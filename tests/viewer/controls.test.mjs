@@ -1,0 +1,299 @@
+// Every control, operated as a user would, and its effect seen in the picture or the address.
+import assert from "node:assert/strict";
+import { after, before, beforeEach, test } from "node:test";
+import { goTo, inFolder, launch, look, makeAngiogram, nacre, open, psnr, savePicture, settled, toolPose, writeTool } from "./support.mjs";
+
+const browser = await launch();
+let page;
+let url;
+
+before(async () => {
+  writeTool();
+  url = makeAngiogram();
+  nacre("phantom", "spheres", "--size", "24,24,24", "-o", "ball.nrrd", "-q");
+  nacre("build", "ball.nrrd", "--window", "0,28", "--levels", "2", "-o", "ball.glb", "-q");
+  page = await open(browser, url, { width: 910, height: 520 });
+});
+beforeEach(() => goTo(page, ""));
+after(() => browser.close());
+
+const address = async () => {
+  await page.waitForTimeout(400); // it follows the state a few times a second
+  return decodeURIComponent(new URL(page.url()).hash.slice(1));
+};
+
+/** The act changes the picture; the address then matches. */
+async function changes(what, act, hash) {
+  const earlier = await look(page);
+  await act();
+  await settled(page);
+  assert.notEqual(await look(page), earlier, `${what}: the picture is the same`);
+  if (hash) assert.match(await address(), hash, what);
+}
+
+async function setNumber(name, value) {
+  const field = page.locator(`[data-slider="${name}"] input[type=number]`);
+  await field.fill(String(value));
+  await field.press("Enter");
+}
+
+const canvas = async () => page.locator("#picture").boundingBox();
+
+async function drag(from, to, options = {}) {
+  const box = await canvas();
+  const at = ([x, y]) => [box.x + box.width * x, box.y + box.height * y];
+  if (options.key) await page.keyboard.down(options.key);
+  await page.mouse.move(...at(from));
+  await page.mouse.down({ button: options.button ?? "left" });
+  await page.mouse.move(...at(to), { steps: 3 });
+  await page.mouse.up({ button: options.button ?? "left" });
+  if (options.key) await page.keyboard.up(options.key);
+}
+
+test("each kind of picture", async () => {
+  for (const mode of ["sum", "count", "iso"]) {
+    await changes(mode, () => page.check(`input[name=mode][value=${mode}]`, { force: true }), new RegExp(`mode=${mode}`));
+    assert.ok((await page.textContent("#mode-note")).length > 10);
+  }
+  await changes("max", () => page.check("input[name=mode][value=max]", { force: true }), /^$/);
+});
+
+test("a sum's own window is its largest pixel", async () => {
+  await page.check("input[name=mode][value=sum]", { force: true });
+  await settled(page);
+  const shown = await savePicture(page, "sum.png", 256, 256);
+  nacre("render", "angiogram.glb", "--mode", "sum", "--size", "256x256", "-o", "nacre.png", "-q");
+  assert.ok(await psnr(page, shown, inFolder("nacre.png")) >= 40);
+});
+
+test("colours, level, window and their own window", async () => {
+  await changes("colours", () => page.selectOption("#color-map", "hot"), /colormap=hot/);
+  await changes("level", () => setNumber("level", 0.3), /display=-0.2,0.8/);
+  await changes("window", () => setNumber("width", 0.4), /display=0.1,0.5/);
+  await changes("window by key", async () => {
+    await page.locator("#slider-width").focus();
+    for (let i = 0; i < 30; ++i) await page.keyboard.press("ArrowRight");
+  });
+  await changes("own window", () => page.click("#window-auto"), /^colormap=hot$/);
+});
+
+test("named views, by buttons and by keys", async () => {
+  const views = ["anterior", "posterior", "left", "right", "superior", "inferior"];
+  for (const view of views.slice(1)) {
+    await changes(view, () => page.click(`[data-view=${view}]`), new RegExp(`view=${view}`));
+  }
+  await page.locator("#picture").focus();
+  for (const [i, view] of views.entries()) {
+    await changes(`key ${i + 1}`, () => page.keyboard.press(String(i + 1)), view === "anterior" ? /^$/ : new RegExp(view));
+  }
+});
+
+test("letters say where the patient's sides are", async () => {
+  const letters = async () => Object.fromEntries(await page.locator("#overlay [data-side]").evaluateAll(
+    (sides) => sides.map((side) => [side.dataset.side, side.textContent])));
+  assert.deepEqual(await letters(), { left: "R", right: "L", top: "S", bottom: "I" });
+  await page.click("[data-view=inferior]");
+  await settled(page);
+  assert.deepEqual(await letters(), { left: "R", right: "L", top: "A", bottom: "P" });
+  assert.match(await page.textContent("#scale-bar"), /^\d+ mm$/);
+});
+
+test("perspective, distance, roll and zoom", async () => {
+  await changes("perspective", () => setNumber("perspective", 60), /perspective=60/);
+  await changes("distance", () => setNumber("distance", 90), /distance=90/);
+  await changes("roll", () => setNumber("roll", 30), /roll=30/);
+  await changes("zoom", () => setNumber("zoom", 2), /zoom=2/);
+  await changes("reset", () => page.click("#reset"), /^$/);
+  await page.locator("#picture").focus();
+  await changes("p", () => page.keyboard.press("p"), /perspective=40/);
+});
+
+test("the cue", async () => {
+  await changes("a", () => setNumber("a", 0.5), /cue=0.5,1,0/);
+  await changes("b", () => setNumber("b", 0.2), /cue=0.5,0.2,0/);
+  await changes("beta0", () => setNumber("beta0", 0.3), /cue=0.5,0.2,0.3/);
+  await setNumber("a", -2);
+  await settled(page);
+  const [a, b, beta0] = (await address()).replace("cue=", "").split(",").map(Number);
+  assert.ok(a === -2 && beta0 + b + a >= -1e-9, "beta is not negative anywhere");
+  await changes("near is bright", () => page.click("#cue-near"), /cue=0.85,0.15,0/);
+  await changes("no cue", () => page.click("#cue-off"), /^$/);
+});
+
+test("the slab", async () => {
+  await changes("from", () => setNumber("slab-near", -5), /slab=-5,1000000/);
+  await changes("to", () => setNumber("slab-far", 5), /slab=-5,5/);
+  await setNumber("slab-far", -20);
+  const [near, far] = (await address()).replace("slab=", "").split(",").map(Number);
+  assert.ok(near < far && far === -20, "the end that is moved pushes the other");
+  await changes("whole volume", () => page.click("#slab-off"), /^$/);
+});
+
+test("shells, all, none, half and one by one", async () => {
+  assert.equal(await page.locator(".shell").count(), 8);
+  await changes("none", () => page.click("#shells-none"), /hide=1,2,3,4,5,6,7,8/);
+  await changes("one", () => page.check("[data-shell='4'] input"), /hide=1,2,3,5,6,7,8/);
+  await changes("all", () => page.click("#shells-all"), /^$/);
+  await changes("every second", () => page.click("#shells-half"), /hide=2,4,6,8/);
+});
+
+test("turning, moving, zooming and windowing with the mouse", async () => {
+  await changes("drag", () => drag([0.4, 0.5], [0.6, 0.6]), /azimuth=-\d.*elevation=\d/);
+  await changes("shift drag", () => drag([0.4, 0.5], [0.5, 0.5], { key: "Shift" }), /look-at=/);
+  await changes("middle drag", () => drag([0.4, 0.5], [0.4, 0.6], { button: "middle" }));
+  await changes("right drag", () => drag([0.4, 0.5], [0.3, 0.4], { button: "right" }), /display=/);
+  const box = await canvas();
+  await page.mouse.move(box.x + 100, box.y + 100);
+  await changes("wheel", () => page.mouse.wheel(0, -300), /zoom=1\.\d/);
+  await changes("double click", () => page.mouse.dblclick(box.x + 100, box.y + 100), /^display=[^&]*$/);
+});
+
+test("keys of the picture", async () => {
+  await page.locator("#picture").focus();
+  await changes("arrow", () => page.keyboard.press("ArrowLeft"), /azimuth=5/);
+  await changes("up", () => page.keyboard.press("ArrowUp"), /elevation=-5/);
+  await changes("shift arrow", () => page.keyboard.press("Shift+ArrowLeft"), /look-at/);
+  await changes("plus", () => page.keyboard.press("+"), /zoom=1.1/);
+  await changes("bracket", () => page.keyboard.press("]"), /roll=5/);
+  await changes("m", () => page.keyboard.press("m"), /mode=sum/);
+  await changes("r", () => page.keyboard.press("r"), /^mode=sum$/);
+});
+
+test("cine turns until it is stopped", async () => {
+  await setNumber("cine-speed", 90);
+  await changes("cine", async () => {
+    await page.click("#cine");
+    await page.waitForTimeout(1500);
+    assert.equal(await page.getAttribute("#cine", "aria-pressed"), "true");
+    await page.click("#cine");
+  }, /azimuth=/);
+  const stopped = await address();
+  await page.waitForTimeout(600);
+  assert.equal(await address(), stopped);
+});
+
+test("touch: one finger turns, two pinch, three set the window", async () => {
+  const touch = await page.context().newCDPSession(page);
+  const box = await canvas();
+  const fingers = (points) => points.map(([x, y], id) => ({ x: box.x + x, y: box.y + y, id }));
+  const gesture = async (from, to) => {
+    await touch.send("Input.dispatchTouchEvent", { type: "touchStart", touchPoints: fingers(from) });
+    await touch.send("Input.dispatchTouchEvent", { type: "touchMove", touchPoints: fingers(to) });
+    await touch.send("Input.dispatchTouchEvent", { type: "touchEnd", touchPoints: [] });
+  };
+  await changes("one finger", () => gesture([[200, 200]], [[240, 210]]), /azimuth=/);
+  await changes("pinch", () => gesture([[200, 200], [260, 200]], [[170, 200], [290, 200]]), /zoom=1\.\d|zoom=2/);
+  await changes("three", () => gesture([[100, 200], [160, 200], [220, 200]], [[130, 170], [190, 170], [250, 170]]), /display=/);
+});
+
+test("a tool: colour, scale, pose, handles by hand and key, removal", async () => {
+  await changes("add", () => page.setInputFiles("#tool-file", inFolder("tool.obj")));
+  await changes("colour", () => page.locator("#tool-list input[type=color]").fill("#ff4040"));
+  await changes("scale", async () => {
+    await page.locator("#tool-list input[type=number]").fill("0.5");
+    await page.keyboard.press("Enter");
+  });
+  const handles = page.locator(".handle");
+  assert.equal(await handles.count(), 4);
+  const pose = () => page.locator("#tool-list textarea").inputValue();
+  for (const [i, name] of ["move", "near", "turn", "tilt"].entries()) {
+    const earlier = await pose();
+    const box = await handles.nth(i).boundingBox();
+    await page.mouse.move(box.x + 13, box.y + 13);
+    await page.mouse.down();
+    await page.mouse.move(box.x + 33, box.y + 38, { steps: 3 });
+    await page.mouse.up();
+    await settled(page);
+    assert.notEqual(await pose(), earlier, `${name} by hand`);
+    const dragged = await pose();
+    await handles.nth(i).focus();
+    await page.keyboard.press("ArrowDown");
+    await settled(page);
+    assert.notEqual(await pose(), dragged, `${name} by key`);
+  }
+  await page.locator("#tool-list textarea").fill("1 2 3");
+  await page.locator("#tool-list textarea").blur();
+  assert.match(await page.textContent("#message"), /found 3 numbers, expected 16/);
+  await changes("pose", async () => {
+    await page.locator("#tool-list textarea").fill(toolPose);
+    await page.locator("#tool-list textarea").blur();
+  });
+  await changes("over", () => page.check("#over"), /tool-blend=over/);
+  await changes("remove", () => page.locator("#tool-list button").click());
+  assert.equal(await handles.count(), 0);
+});
+
+test("a bad tool gets a line, not a blank page", async () => {
+  await page.setInputFiles("#tool-file", { name: "bad.stl", mimeType: "model/stl", buffer: Buffer.from("not a mesh") });
+  await page.waitForFunction(() => document.getElementById("message").textContent.startsWith("bad.stl: found"));
+});
+
+test("help, panel and full screen", async () => {
+  await page.click("#help-button");
+  assert.ok(await page.locator("#help").isVisible());
+  await page.keyboard.press("Escape");
+  assert.ok(!await page.locator("#help").isVisible());
+  await page.locator("#picture").focus();
+  await page.keyboard.press("h");
+  assert.ok(await page.locator("#help").isVisible());
+  await page.click("#help button");
+  await page.click("#panel-toggle");
+  await settled(page);
+  assert.equal((await canvas()).width, 910);
+  await page.click("#panel-toggle");
+  await page.click("#full-screen");
+  await page.waitForFunction(() => document.fullscreenElement !== null);
+  await page.click("#full-screen");
+  await page.waitForFunction(() => document.fullscreenElement === null);
+});
+
+test("the link of a view shows it again", async () => {
+  await page.context().grantPermissions(["clipboard-read", "clipboard-write"]);
+  await goTo(page, "view=left&azimuth=20&cue=0.5,0.5,0&hide=2&colormap=bone");
+  await page.click("#copy-link");
+  await page.waitForFunction(() => !document.getElementById("message").hidden);
+  const shown = await look(page);
+  const other = await open(browser, page.url(), { width: 910, height: 520 });
+  await page.waitForTimeout(300);
+  const box = await other.locator("#picture").boundingBox();
+  assert.equal((await page.locator("#picture").boundingBox()).width, box.width);
+  assert.match(await other.textContent("#command"), /--view left --azimuth 20 --cue 0.5,0.5,0 --hide 2 --colormap bone/);
+  assert.ok(shown.length > 1000);
+  await other.close();
+});
+
+test("another set is opened by hand", async () => {
+  await changes("open", () => page.setInputFiles("#set-file", inFolder("ball.glb")));
+  assert.equal(await page.locator(".shell").count(), 2);
+});
+
+test("every control has a name, and is reached by Tab", async () => {
+  const nameless = await page.evaluate(() => [...document.querySelectorAll("button, input, select, textarea, canvas")]
+    .filter((e) => !(e.getAttribute("aria-label") || e.textContent.trim() || e.labels?.length || e.title))
+    .map((e) => e.outerHTML.slice(0, 80)));
+  assert.deepEqual(nameless, []);
+  await page.locator("#picture").focus();
+  const reached = new Set();
+  for (let i = 0; i < 80; ++i) {
+    await page.keyboard.press("Tab");
+    reached.add(await page.evaluate(() => document.activeElement?.id));
+  }
+  for (const id of ["slider-a", "color-map", "cine", "save", "shells-all", "slider-slab-near"]) {
+    assert.ok(reached.has(id), `${id} by Tab`);
+  }
+});
+
+test("a lost context is restored", async () => {
+  const shown = await look(page);
+  await page.evaluate(async () => {
+    const lose = document.getElementById("picture").getContext("webgl2").getExtension("WEBGL_lose_context");
+    lose.loseContext();
+    await new Promise((done) => setTimeout(done, 300));
+    document.documentElement.dataset.state = "drawing";
+    lose.restoreContext();
+  });
+  await settled(page);
+  assert.equal(await look(page), shown);
+});
+
+test("nothing was wrong on the way", () => assert.deepEqual(page.problems, []));

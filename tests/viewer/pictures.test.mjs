@@ -1,0 +1,97 @@
+// The page's pictures against `nacre render` with the same flags: at least 40 dB.
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+import { goTo, inFolder, launch, makeAngiogram, nacre, open, psnr, savePicture, settled, toolPose, writeTool } from "./support.mjs";
+
+const browser = await launch();
+const leastPsnr = 40;
+const side = 256;
+let page;
+
+before(async () => {
+  writeTool();
+  page = await open(browser, makeAngiogram());
+});
+after(() => browser.close());
+
+const turned = "azimuth=25&elevation=15&zoom=1.3";
+const tool = ["--tool", "tool.obj,pose=pose.txt,color=#4070b0"];
+
+/** Each: name, the view as in the address, whether the tool is there. */
+const withoutTool = [
+  ["max", ""],
+  ["max, turned", turned],
+  ["max, cued", `${turned}&cue=0.8,0.2,0`],
+  ["max, cued the other way", `${turned}&cue=-0.7,0.9,0.1`],
+  ["max, a flat cue", "cue=0,0.5,0.2"],
+  ["max, perspective", `${turned}&perspective=50`],
+  ["max, perspective and cued", `${turned}&perspective=50&cue=1,0.1,0`],
+  ["max, a slab", `${turned}&slab=-8,9`],
+  ["max, a slab and cued", `${turned}&slab=-8,9&cue=0.8,0.2,0`],
+  ["max, a slab and cued the other way", `${turned}&slab=-8,9&cue=-0.7,0.9,0.1`],
+  ["max, the eye inside", "azimuth=15&perspective=90&distance=40&look-at=-10,-10,-20"],
+  ["max, moved and rolled", `${turned}&roll=33&look-at=10,-5,12`],
+  ["max, shells hidden", "view=left&hide=2,3,7"],
+  ["sum", `mode=sum&display=0,10&${turned}`],
+  ["sum, cued", `mode=sum&display=0,7&${turned}&cue=0.9,0.1,0`],
+  ["sum, a slab", `mode=sum&display=0,7&${turned}&slab=-8,9`],
+  ["sum, perspective and cued", `mode=sum&display=0,7&${turned}&perspective=60&cue=0.9,0.1,0`],
+  ["count", `mode=count&display=0,12&${turned}`],
+  ["count, a slab", `mode=count&display=0,12&${turned}&slab=-8,9`],
+  ["lit", `mode=iso&${turned}`],
+  ["lit, an inner shell, cued", `mode=iso&${turned}&hide=1,2,3&cue=0.7,0.3,0`],
+  ["lit, a slab", `mode=iso&${turned}&slab=-8,9`],
+  ["lit, perspective", `mode=iso&${turned}&perspective=50`],
+  ["superior", "view=superior&zoom=1.5"],
+  ["inferior", "view=inferior&azimuth=-40&elevation=20"],
+  ...["gray-inverted", "hot", "hot-iron", "bone", "angio", "viridis", "inferno", "magma", "plasma", "cividis"]
+    .map((map) => [`colours: ${map}`, `${turned}&colormap=${map}&display=0.1,0.9`]),
+];
+const withTool = [
+  ["max with a tool", turned],
+  ["max with a tool, cued", `${turned}&cue=0.8,0.2,0`],
+  ["max with a tool, cued the other way", `${turned}&cue=-0.7,0.9,0.1`],
+  ["max with a tool, over", `${turned}&tool-blend=over`],
+  ["max with a tool, inverted", `${turned}&colormap=gray-inverted`],
+  ["max with a tool, perspective and cued", `${turned}&perspective=50&cue=1,0.1,0`],
+  ["max with a tool and a slab", `${turned}&slab=-8,9`],
+  ["sum with a tool", `mode=sum&display=0,10&${turned}`],
+  ["sum with a tool, perspective", `mode=sum&display=0,10&${turned}&perspective=50`],
+  ["count with a tool", `mode=count&display=0,12&${turned}`],
+  ["lit with a tool", `mode=iso&${turned}`],
+];
+
+const flagsOf = (hash) => hash.split("&").filter(Boolean).flatMap((part) => {
+  const [name, value] = part.split("=");
+  return [`--${name}=${value}`];
+});
+
+async function compare(name, hash, toolFlags) {
+  await goTo(page, hash);
+  const shown = await savePicture(page, "page.png", side, side);
+  nacre("render", "angiogram.glb", "--size", `${side}x${side}`, ...flagsOf(hash), ...toolFlags, "-o", "nacre.png", "-q");
+  const found = await psnr(page, shown, inFolder("nacre.png"));
+  console.log(`${name}: ${found.toFixed(1)} dB`);
+  assert.ok(found >= leastPsnr, `${name}: ${found.toFixed(1)} dB`);
+}
+
+for (const [name, hash] of withoutTool) test(name, () => compare(name, hash, []));
+
+test("a picture that is not square", async () => {
+  await goTo(page, turned);
+  const shown = await savePicture(page, "page.png", 300, 200);
+  nacre("render", "angiogram.glb", "--size", "300x200", ...flagsOf(turned), "-o", "nacre.png", "-q");
+  assert.ok(await psnr(page, shown, inFolder("nacre.png")) >= leastPsnr);
+});
+
+test("a tool is added and posed by its file and field", async () => {
+  await page.setInputFiles("#tool-file", inFolder("tool.obj"));
+  await page.locator("#tool-list textarea").fill(toolPose);
+  await page.locator("#tool-list textarea").blur();
+  await page.locator("#tool-list input[type=color]").fill("#4070b0");
+  await settled(page);
+});
+
+for (const [name, hash] of withTool) test(name, () => compare(name, hash, tool));
+
+test("nothing was wrong on the way", () => assert.deepEqual(page.problems, []));

@@ -1,0 +1,107 @@
+// `nacre view`: the served page, live levels, what is not given away, and a clean end.
+import assert from "node:assert/strict";
+import { spawn } from "node:child_process";
+import { once } from "node:events";
+import { request } from "node:http";
+import { after, test } from "node:test";
+import { folder, inFolder, launch, look, makeAngiogram, nacre, open, psnr, savePicture, settled } from "./support.mjs";
+
+const browser = await launch();
+makeAngiogram();
+const running = new Set();
+after(async () => {
+  for (const server of running) server.kill("SIGKILL");
+  await browser.close();
+});
+
+/** A server with those arguments, and its address. */
+async function serve(...flags) {
+  const server = spawn(process.env.NACRE_BINARY, ["view", ...flags, "--no-open"], { cwd: folder });
+  running.add(server);
+  let said = "";
+  for await (const text of server.stdout) {
+    said += text;
+    const address = said.match(/http:\/\/127\.0\.0\.1:\d+\//);
+    if (address) return { server, address: address[0] };
+  }
+  throw new Error(`it said no address: ${said}`);
+}
+
+async function end(server, signal) {
+  const ended = once(server, "exit");
+  server.kill(signal);
+  const [status] = await ended;
+  running.delete(server);
+  return status;
+}
+
+/** The status of a request with a Host and a path as they are given. */
+const statusOf = (address, path, host, method = "GET") => new Promise((resolve, reject) => {
+  const { hostname, port } = new URL(address);
+  const asked = request({ hostname, port, path, method, headers: host ? { Host: host } : {} }, (answer) => {
+    answer.resume();
+    resolve(answer.statusCode);
+  });
+  asked.on("error", reject);
+  asked.end();
+});
+
+test("a set is served, nothing else is, and SIGINT ends it", async () => {
+  const { server, address } = await serve("angiogram.glb");
+  const page = await open(browser, address);
+  nacre("render", "angiogram.glb", "--size", "256x256", "-o", "nacre.png", "-q");
+  assert.ok(await psnr(page, await savePicture(page, "page.png", 256, 256), inFolder("nacre.png")) >= 40);
+  assert.equal(await page.locator("#live").isVisible(), false);
+  for (const path of ["/angiogram.nrrd", "/../angiogram.nrrd", "/%2e%2e/angiogram.nrrd", "/etc/passwd", "/level"]) {
+    assert.equal(await statusOf(address, path), 404, path);
+  }
+  assert.equal(await statusOf(address, "/set.glb"), 200);
+  assert.equal(await statusOf(address, "/set.glb", "elsewhere.example"), 403);
+  assert.equal(await statusOf(address, "/level?emission=0.5", undefined, "POST"), 404, "no volume, no levels");
+  await page.close();
+  assert.equal(await end(server, "SIGINT"), 0);
+});
+
+test("levels are added, moved and deleted while it is served", async () => {
+  const { server, address } = await serve("angiogram.nrrd", "--window", "400,1400", "--levels", "3");
+  const page = await open(browser, address);
+  const levels = () => page.locator(".shell input[type=number]").evaluateAll((all) => all.map((field) => Number(field.value)));
+  const three = await levels();
+  assert.equal(three.length, 3);
+  let seen = await look(page);
+  const changed = async (what) => {
+    await settled(page);
+    const now = await look(page);
+    assert.notEqual(now, seen, what);
+    seen = now;
+  };
+  await page.fill("#live-emission", "0.35");
+  await page.click("#live-add");
+  await page.waitForFunction(() => document.querySelectorAll(".shell").length === 4);
+  await changed("added");
+  console.log(`a level took ${await page.getAttribute("#live", "data-milliseconds")} ms`);
+  const field = page.locator(".shell input[type=number]").nth(2);
+  assert.equal(await field.inputValue(), "0.35");
+  await field.fill("0.2");
+  await field.press("Enter");
+  await page.waitForFunction(() => [...document.querySelectorAll(".shell input[type=number]")].some((f) => f.value === "0.2"));
+  await changed("moved");
+  await page.locator(".shell button").nth(2).click();
+  await page.waitForFunction(() => document.querySelectorAll(".shell").length === 3);
+  assert.deepEqual(await levels(), three);
+  await changed("deleted");
+  await page.fill("#live-emission", "7");
+  await page.click("#live-add");
+  assert.match(await page.textContent("#message"), /found 7, expected above 0 and up to 1/);
+  assert.equal(await statusOf(address, "/level?emission=x", undefined, "POST"), 400);
+  assert.deepEqual(page.problems, []);
+  await page.close();
+  assert.equal(await end(server, "SIGTERM"), 0);
+});
+
+test("a port that is taken gets a line", async () => {
+  const { server, address } = await serve("angiogram.glb");
+  assert.throws(() => nacre("view", "angiogram.glb", "--no-open", "--port", new URL(address).port), (error) =>
+    error.status === 4 && /found it taken/.test(String(error.stderr)));
+  assert.equal(await end(server, "SIGINT"), 0);
+});

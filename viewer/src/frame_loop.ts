@@ -1,0 +1,105 @@
+/**
+ * When to draw: only when something changed, never more than one frame ahead of the graphics side.
+ * While the picture moves and frames run late, it has less detail.
+ */
+import { Detail } from "./detail";
+
+const restAfter = 250;
+
+export class FrameLoop {
+  /** Of the last frame, from its first command to its end on the graphics side, ms. */
+  milliseconds = 0;
+  /** Frames in the last second. */
+  rate = 0;
+  /** Of pictures that move. */
+  readonly detail = new Detail();
+  private dirty = false;
+  private scheduled = false;
+  private fence: WebGLSync | null = null;
+  private started = 0;
+  private movedAt = -Infinity;
+  private restTimer = 0;
+  private ends: number[] = [];
+  /** Whether the last frame had less detail than one at rest. */
+  private reduced = false;
+
+  constructor(
+    private readonly gl: WebGL2RenderingContext,
+    private readonly draw: () => void,
+    private readonly measured: () => void,
+  ) {}
+
+  invalidate(): void {
+    this.dirty = true;
+    this.schedule();
+  }
+
+  /** The same, for a picture that moves: it may be drawn with fewer pixels, and again at rest. */
+  invalidateMoving(): void {
+    this.movedAt = performance.now();
+    clearTimeout(this.restTimer);
+    this.restTimer = window.setTimeout(() => this.rest(), restAfter);
+    this.invalidate();
+  }
+
+  isMoving(): boolean { return performance.now() - this.movedAt < restAfter; }
+
+  /** Whether what is on the screen is the last that was asked for. */
+  isSettled(): boolean { return !this.dirty && !this.fence && !this.reduced; }
+
+  /** Of the device's pixels, in each direction. */
+  scale(): number { return this.isMoving() ? this.detail.scale : 1; }
+
+  /** Every how many of the shells shown is drawn. */
+  stride(): number { return this.isMoving() ? this.detail.stride : 1; }
+
+  /** After a lost context: what was in flight never ends. */
+  restart(): void {
+    this.fence = null;
+    this.invalidate();
+  }
+
+  private rest(): void {
+    if (this.reduced) this.invalidate();
+  }
+
+  private schedule(): void {
+    if (this.scheduled) return;
+    this.scheduled = true;
+    requestAnimationFrame(() => this.frame());
+  }
+
+  private frame(): void {
+    this.scheduled = false;
+    if (!this.dirty || this.fence) return;
+    this.dirty = false;
+    this.started = performance.now();
+    this.reduced = this.scale() < 1 || this.stride() > 1;
+    this.draw();
+    this.fence = this.gl.fenceSync(this.gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+    this.gl.flush();
+    this.poll();
+  }
+
+  private poll(): void {
+    const { gl, fence } = this;
+    if (!fence) return;
+    if (!gl.isContextLost() && gl.getSyncParameter(fence, gl.SYNC_STATUS) !== gl.SIGNALED) {
+      setTimeout(() => this.poll());
+      return;
+    }
+    gl.deleteSync(fence);
+    this.fence = null;
+    this.account();
+    if (this.dirty) this.schedule();
+  }
+
+  private account(): void {
+    const now = performance.now();
+    this.milliseconds = now - this.started;
+    this.ends = [...this.ends.filter((end) => end > now - 1000), now];
+    this.rate = this.ends.length;
+    if (this.isMoving()) this.detail.account(this.milliseconds);
+    this.measured();
+  }
+}

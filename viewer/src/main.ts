@@ -1,0 +1,144 @@
+/** Starts the page: the viewer, its controls, and the set that the page holds or is told to fetch. */
+import { Actions, bindKeys } from "./actions";
+import { byId } from "./dom";
+import { Gestures } from "./gestures";
+import { LiveLevels } from "./live";
+import { say } from "./message";
+import { Overlay } from "./overlay";
+import { Panel } from "./panel";
+import { PoseHandles } from "./pose_handles";
+import type { FloatTargets } from "./renderer";
+import { hashOf, stateOf } from "./state";
+import { Viewer } from "./viewer";
+
+const page = document.documentElement;
+
+const setText = byId("nacre-set").textContent!.trim();
+const isLive = setText.startsWith("live:");
+
+/** The set as the page has it: its bytes in base64, "fetch:ADDRESS", "live:ADDRESS", or none. */
+async function ownSet(): Promise<Uint8Array | null> {
+  const text = setText;
+  if (text === "" || text.startsWith("/*")) return null;
+  if (isLive || text.startsWith("fetch:")) {
+    const answer = await fetch(text.slice(text.indexOf(":") + 1));
+    if (!answer.ok) throw new Error(`the server answered ${answer.status}`);
+    return new Uint8Array(await answer.arrayBuffer());
+  }
+  try {
+    return Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
+  } catch {
+    return new Uint8Array(); // cut off or changed: no shell set, which is said
+  }
+}
+
+/** The address follows the state, at most a few times a second. */
+function keepAddress(viewer: Viewer): void {
+  let written = location.hash.replace(/^#/, "");
+  let timer = 0;
+  const write = (): void => {
+    timer = 0;
+    const hash = hashOf(viewer.state);
+    if (hash === written) return;
+    written = hash;
+    history.replaceState(null, "", hash === "" ? location.pathname + location.search : `#${hash}`);
+  };
+  viewer.listen((what) => { if (what === "state" && timer === 0) timer = window.setTimeout(write, 300); });
+  window.addEventListener("hashchange", () => {
+    const given = location.hash.replace(/^#/, "");
+    if (given === written) return;
+    written = given;
+    viewer.change(stateOf(given));
+  });
+}
+
+function showStatus(viewer: Viewer): void {
+  const { loop, canvas } = viewer;
+  const pixels = `${canvas.width} × ${canvas.height}`;
+  const speed = loop.isMoving() && loop.rate > 1 ? `, ${loop.rate} a second` : "";
+  const shells = loop.stride() > 1 ? `, 1 shell of ${loop.stride()} while it moves` : "";
+  const thousands = Math.round(viewer.triangles / 1000).toLocaleString("en");
+  byId("status").textContent =
+    `${loop.milliseconds.toFixed(1)} ms a frame${speed}\n${thousands}k triangles, ${pixels}${shells}`;
+}
+
+function showProgress(viewer: Viewer): void {
+  const { wanted, loaded, problem } = viewer.loader.state();
+  const bar = byId("progress");
+  const share = wanted > 0 ? Math.round((100 * loaded) / wanted) : 100;
+  bar.hidden = loaded >= wanted;
+  bar.setAttribute("aria-valuenow", String(share));
+  (bar.firstElementChild as HTMLElement).style.width = `${share}%`;
+  if (viewer.set && viewer.loop.isSettled()) page.dataset.state = loaded >= wanted ? "ready" : "loading";
+  if (problem) {
+    say(`${problem}. The picture is shown without it.`, "small");
+    viewer.loader.problem = "";
+    page.dataset.problem = problem;
+  }
+}
+
+function bindFiles(viewer: Viewer, actions: Actions): void {
+  byId<HTMLInputElement>("set-file").addEventListener("change", (event) =>
+    void actions.openFiles([...((event.target as HTMLInputElement).files ?? [])]));
+  const stage = byId("stage");
+  stage.addEventListener("dragover", (event) => event.preventDefault());
+  stage.addEventListener("drop", (event) => {
+    event.preventDefault();
+    void actions.openFiles([...(event.dataTransfer?.files ?? [])]);
+  });
+  viewer.canvas.addEventListener("dblclick", () => actions.reset());
+}
+
+function bindPanelToggle(): void {
+  const toggle = byId("panel-toggle");
+  toggle.addEventListener("click", () => {
+    const folded = document.body.classList.toggle("folded");
+    toggle.setAttribute("aria-expanded", String(!folded));
+  });
+}
+
+const asked = new URLSearchParams(location.search);
+
+/** Which float targets to use at most, for trying what lesser devices show: ?floats=half. */
+function floatsWanted(): FloatTargets {
+  const given = asked.get("floats");
+  return given === "half" || given === "none" ? given : "float";
+}
+
+async function start(): Promise<void> {
+  page.dataset.state = "starting";
+  const viewer = new Viewer(byId<HTMLCanvasElement>("picture"), byId("nacre-decoder").textContent!, floatsWanted());
+  viewer.loop.detail.isFixed = asked.get("detail") === "full";
+  const actions = new Actions(viewer);
+  const overlay = new Overlay(byId("overlay"));
+  new Gestures(viewer);
+  const panel = new Panel(viewer, actions);
+  if (isLive) panel.shells.live = new LiveLevels(viewer);
+  new PoseHandles(viewer);
+  bindKeys(actions);
+  bindFiles(viewer, actions);
+  bindPanelToggle();
+  keepAddress(viewer);
+  viewer.state = stateOf(location.hash);
+  viewer.listen((what) => {
+    if (viewer.set && (what === "state" || what === "tools")) page.dataset.state = "drawing";
+    if (what === "frame" || what === "loading") showProgress(viewer);
+    if (what === "frame") showStatus(viewer);
+    if (what === "frame") overlay.update(viewer.camera(), viewer.canvas.clientWidth);
+  });
+  const bytes = await ownSet();
+  if (bytes) actions.openSet("The shell set of this page", bytes);
+  else {
+    page.dataset.state = "empty";
+    say("No shell set yet: open or drop a .glb that nacre build wrote.", "news");
+    viewer.change({});
+  }
+}
+
+start().catch((error: unknown) => {
+  const reason = error instanceof Error ? error.message : String(error);
+  page.dataset.state = "failed";
+  say(reason === "no WebGL2"
+    ? "This browser has no WebGL2, which the picture needs. Current Firefox, Chrome, Edge and Safari have it; it may be switched off in the settings, or the graphics driver may be on their block list."
+    : `The page could not start: ${reason}.`, "problem");
+});
