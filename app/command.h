@@ -91,7 +91,5 @@ void add_reference_verb(CLI::App& app, int& status);
 void add_render_verb(CLI::App& app, int& status);
 void add_compare_verb(CLI::App& app, int& status);
 void add_info_verb(CLI::App& app, int& status);
-void add_report_verb(CLI::App& app, int& status);
-void add_tables_verb(CLI::App& app, int& status);
 
 }  // namespace nacre

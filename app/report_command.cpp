@@ -3,6 +3,8 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <memory>
 #include <numbers>
 #include <string>
@@ -12,10 +14,12 @@
 #include "app/camera_flags.h"
 #include "app/flag_values.h"
 #include "app/output_folder.h"
+#include "app/report_verbs.h"
 #include "app/scene_flags.h"
 #include "app/thread_limit.h"
 #include "app/volume_flags.h"
 #include "core/error.h"
+#include "report/error_growth.h"
 #include "report/measurement.h"
 #include "report/needle.h"
 #include "report/report_page.h"
@@ -33,6 +37,7 @@ struct ReportFlags {
   SceneFlags scene;
   std::string output;
   std::string only;
+  std::string against;
   bool quick = false;
 };
 
@@ -78,7 +83,9 @@ std::string camera_text(const CameraFlags& flags, int views) {
 }
 
 std::string tools_text(const ReportFlags& flags) {
-  if (flags.scene.tools.empty()) return "--tool " + quoted(fs::path(flags.output) / kNeedle);
+  if (flags.scene.tools.empty()) {
+    return fmt::format("--tool {}", quoted((fs::path(flags.output) / kNeedle).string()));
+  }
   std::string text;
   for (const std::string& tool : flags.scene.tools) {
     text += fmt::format("{}--tool {}", text.empty() ? "" : " ", quoted(tool));
@@ -133,7 +140,7 @@ std::string repeating_text(const ReportFlags& flags, const CommandTexts& texts) 
   std::string text = fmt::format("nacre report {} {}", texts.volume, texts.camera);
   if (flags.quick) text += " --quick";
   text += flag("--only", flags.only) + flag("--cue", flags.scene.cue);
-  if (!flags.scene.tools.empty()) text += " " + texts.tools;
+  if (!flags.scene.tools.empty()) text += fmt::format(" {}", texts.tools);
   return text + flag("-o", flags.output);
 }
 
@@ -171,11 +178,22 @@ void say_outcome(const MeasurementResult& result, Reporter& reporter) {
                            result.rows.size() - left_out, result.passes, result.seconds, left_out));
 }
 
-void run_report(const ReportFlags& flags) {
+/// The whole of a file.
+std::string text_of_file(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) {
+    throw Error(ErrorCode::BadFile,
+                fmt::format("{}: found no such file, expected a report's JSON", path));
+  }
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+int run_report(const ReportFlags& flags) {
   Reporter reporter(flags.common);
   const ThreadLimit limit(flags.common);
   MeasurementOptions options = measurement_options(flags);
   camera_options(flags.camera);  // refuses what cannot be, before the work
+  const std::string earlier = flags.against.empty() ? "" : text_of_file(flags.against);
   OutputFolder folder(flags.output);
   Stopwatch watch;
   const EmissionVolume input = read_emission_volume(flags.volume, reporter);
@@ -205,11 +223,15 @@ void run_report(const ReportFlags& flags) {
   say_outcome(result, reporter);
   reporter.say(fmt::format("-> {}", (fs::path(flags.output) / "report.html").string()));
   reporter.finish(nlohmann::ordered_json::parse(json));
+  if (flags.against.empty()) return 0;
+  const std::vector<std::string> grown = grown_errors(result, earlier, flags.against);
+  for (const std::string& line : grown) reporter.warn(line);
+  return grown.empty() ? 0 : 1;
 }
 
 }  // namespace
 
-void add_report_verb(CLI::App& app, int& /*status*/) {
+void add_report_verb(CLI::App& app, int& status) {
   CLI::App* verb = app.add_subcommand("report", "Error against run time, as a page with plots");
   verb->footer("Example: nacre report head.nii.gz --window 20,230 --quick -o report");
   auto flags = std::make_shared<ReportFlags>();
@@ -222,12 +244,14 @@ void add_report_verb(CLI::App& app, int& /*status*/) {
   verb->add_option(
       "--only", flags->only,
       "PART,...: max, simplified, quantised, sum, iso, count, occlusion, depth, target");
+  verb->add_option("--against", flags->against,
+                   "report.json of an earlier run: exit 1 if an error grew by more than a tenth");
   add_scene_flags(*verb, flags->scene);
   add_camera_flags(*verb, flags->camera);
   add_volume_reading_flags(*verb, flags->volume);
   add_emission_flags(*verb, flags->volume);
   add_common_flags(*verb, flags->common);
-  verb->callback([flags] { run_report(*flags); });
+  verb->callback([flags, &status] { status = run_report(*flags); });
 }
 
 }  // namespace nacre

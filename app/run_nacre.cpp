@@ -6,6 +6,7 @@
 #include <string>
 
 #include "app/command.h"
+#include "app/report_verbs.h"
 #include "core/error.h"
 
 namespace nacre {

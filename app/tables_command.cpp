@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "app/output_folder.h"
+#include "app/report_verbs.h"
 #include "app/thread_limit.h"
 #include "app/volume_flags.h"
 #include "core/error.h"
@@ -49,7 +50,9 @@ std::vector<EmissionKnot> both_signs(double largest) {
 
 Volume phantom_or_file(const char* phantom, const std::string& path, Reporter& reporter) {
   if (path.empty()) return make_phantom(phantom, {}, reporter.progress());
-  return read_volume_of({.path = path}, reporter).volume;
+  VolumeFlags flags;
+  flags.path = path;
+  return read_volume_of(flags, reporter).volume;
 }
 
 std::string source_words(const char* phantom, const std::string& path) {

@@ -3,6 +3,7 @@
 
 #include "app/command.h"
 #include "app/error_explaining.h"
+#include "app/report_verbs.h"
 #include "app/shell_building.h"
 #include "core/error.h"
 

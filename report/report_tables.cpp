@@ -80,9 +80,9 @@ ordered_json machine_json(const MachineFacts& machine) {
 /// A field of CSV: quoted where commas, quotes or line ends are in it.
 std::string field(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
+  std::string quoted;
+  for (const char c : text) quoted.append(c == '"' ? 2 : 1, c);
+  return fmt::format("\"{}\"", quoted);
 }
 
 std::string bytes_field(const std::optional<std::size_t>& bytes) {
@@ -125,9 +125,9 @@ std::string csv_line(const Measured& row) {
   } else {
     line += ",,,,,";
   }
-  line += "," + field(row.left_out);
+  line += fmt::format(",{}", field(row.left_out));
   if (row.left_out.empty()) {
-    for (const std::string& figure : figure_fields(row)) line += "," + figure;
+    for (const std::string& figure : figure_fields(row)) line += fmt::format(",{}", figure);
   } else {
     constexpr int kFigures = 20;
     line += std::string(kFigures, ',');

@@ -109,7 +109,7 @@ std::string axes(const ScatterPlot& plot, const Frame& frame) {
                   kLeft, kBandTop, right - kLeft, kTop - kBandTop - 8.0, kLeft - 6.0, band + 4.0);
   svg += fmt::format(
       R"(<text class="axis" x="{:.1f}" y="{:.1f}" text-anchor="middle">{}</text>)"
-      R"(<text class="axis" x="14" y="{:.1f}" text-anchor="middle" transform="rotate(-90 14 {:.1f})">)"
+      R"svg(<text class="axis" x="14" y="{:.1f}" text-anchor="middle" transform="rotate(-90 14 {:.1f})">)svg"
       R"(PSNR over lit pixels, dB</text>)",
       0.5 * (kLeft + right), kHeight - 10.0, escaped(plot.price_axis), 0.5 * (kTop + bottom),
       0.5 * (kTop + bottom));

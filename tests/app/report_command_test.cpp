@@ -76,6 +76,30 @@ TEST_F(ReportCommand, CommandsOfRowsWithToolsCuesAndTargetsToo) {
   expect_repeatable(rows);
 }
 
+// The figures were stored by the command below with `--json`; only `rows[].id` and `rows[].error`
+// of them are kept. They change when a method gets better, too: then store them again.
+TEST_F(ReportCommand, NoErrorHasGrownByMoreThanATenth) {
+  ASSERT_EQ(nacre("phantom angiogram --size 48,48,24 -o head.nii").status, 0);
+  const CommandResult result = nacre(
+      "report head.nii --window 400,1400 --quick --size 96x96 --turntable 1 -q -o out --against '" +
+      std::string(NACRE_SOURCE_DIR "/tests/app/report_errors.json") + "'");
+  EXPECT_EQ(result.status, 0) << result.errors;
+}
+
+TEST_F(ReportCommand, AnErrorThatGrewFailsWithALineThatSaysWhich) {
+  json earlier = report("--only quantised");
+  for (json& row : earlier["rows"]) {
+    if (row["id"] == "quantised-10-cpu") row["error"]["lit"]["rmse"] = 1e-3;
+  }
+  folder_.write("earlier.json", earlier.dump());
+  const CommandResult result = nacre(
+      "report ball.nii --window 0,28 --size 40x30 --turntable 2 --quick -o out -q "
+      "--only quantised --against earlier.json");
+  EXPECT_EQ(result.status, 1);
+  EXPECT_NE(result.errors.find("quantised-10-cpu: RMSE over lit pixels is "), std::string::npos)
+      << result.errors;
+}
+
 TEST_F(ReportCommand, LeavesAPageAndTwoTables) {
   report("--only quantised");
   for (const char* name : {"report.html", "report.csv", "report.json", "needle.stl"}) {

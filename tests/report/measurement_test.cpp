@@ -9,6 +9,7 @@
 
 #include "core/volume_geometry.h"
 #include "datasets/phantom.h"
+#include "report/error_growth.h"
 #include "report/needle.h"
 #include "report/report_page.h"
 #include "report/report_tables.h"
@@ -132,6 +133,28 @@ TEST_F(SmallMeasurement, TablesHoldTheSameRows) {
   std::string line = csv.substr(second, csv.find("\r\n", second) - second);
   if (const auto quote = line.find('"'); quote != std::string::npos) line.resize(quote);
   EXPECT_EQ(std::ranges::count(line, ','), std::ranges::count(head, ','));
+}
+
+TEST_F(SmallMeasurement, AnErrorThatGrowsByMoreThanATenthIsNamed) {
+  MeasurementResult result = run();
+  const std::string earlier = report_json(result, {});
+  EXPECT_TRUE(grown_errors(result, earlier, "earlier").empty());
+  Measured& row = result.rows.back();
+  row.error.lit.rmse *= 1.09;
+  EXPECT_TRUE(grown_errors(result, earlier, "earlier").empty());
+  row.error.lit.rmse *= 1.02;
+  const std::vector<std::string> lines = grown_errors(result, earlier, "earlier");
+  ASSERT_EQ(lines.size(), 1U);
+  EXPECT_EQ(lines.front().rfind(row.method.id + ": RMSE over lit pixels is ", 0), 0U)
+      << lines.front();
+}
+
+TEST_F(SmallMeasurement, WhatIsNoReportIsRefusedAsAnEarlierOne) {
+  const MeasurementResult result = run();
+  for (const char* text : {"", "{}", R"({"rows":[{"id":1}]})", R"({"rows":3})"}) {
+    testing::expect_error(ErrorCode::BadFile, "expected the JSON of a report",
+                          [&] { grown_errors(result, text, "earlier.json"); });
+  }
 }
 
 TEST(Needle, IsClosedAndRunsThroughTheCentre) {
