@@ -1,6 +1,7 @@
 #include "report/markup.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 
 #include "io/png_picture.h"
@@ -80,6 +81,42 @@ DisplayImage thumbnail(const DisplayImage& picture, int side) {
     }
   }
   return small;
+}
+
+PictureCrop lit_part(const Image& image, double peak) {
+  const auto least = static_cast<float>(0.01 * peak);
+  int left = image.width;
+  int top = image.height;
+  int right = -1;
+  int bottom = -1;
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      if (image.at(x, y) <= least) continue;
+      left = std::min(left, x);
+      right = std::max(right, x);
+      top = std::min(top, y);
+      bottom = std::max(bottom, y);
+    }
+  }
+  if (right < 0) return {0, 0, image.width, image.height};
+  const int margin = std::max(image.width, image.height) / 64 + 1;
+  left = std::max(0, left - margin);
+  top = std::max(0, top - margin);
+  right = std::min(image.width - 1, right + margin);
+  bottom = std::min(image.height - 1, bottom + margin);
+  return {left, top, right - left + 1, bottom - top + 1};
+}
+
+DisplayImage cropped(const DisplayImage& picture, const PictureCrop& part) {
+  DisplayImage result{part.width, part.height, picture.channels, {}};
+  for (int y = part.y; y < part.y + part.height; ++y) {
+    const auto row =
+        picture.pixels.begin() + static_cast<std::ptrdiff_t>(picture.channels) *
+                                     (static_cast<std::ptrdiff_t>(y) * picture.width + part.x);
+    result.pixels.insert(result.pixels.end(), row,
+                         row + static_cast<std::ptrdiff_t>(picture.channels) * part.width);
+  }
+  return result;
 }
 
 }  // namespace nacre

@@ -20,4 +20,19 @@ std::string data_uri(const DisplayImage& picture);
 /// right and lower edge cut.
 DisplayImage thumbnail(const DisplayImage& picture, int side);
 
+/// A part of a picture, in pixels.
+struct PictureCrop {
+  int x = 0;
+  int y = 0;
+  int width = 0;
+  int height = 0;
+};
+
+/// Where a picture is brighter than a hundredth of `peak`, with a margin; all of it if it is
+/// nowhere.
+PictureCrop lit_part(const Image& image, double peak);
+
+/// @pre  the part lies within the picture
+DisplayImage cropped(const DisplayImage& picture, const PictureCrop& part);
+
 }  // namespace nacre

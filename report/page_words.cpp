@@ -33,8 +33,8 @@ double byte_price(const Measured& row) { return static_cast<double>(row.bytes); 
 double error_price(const Measured& row) { return row.error.lit.rmse; }
 
 std::string row_words(std::string_view praise, const Measured& row) {
-  return fmt::format("<li>{}: <b>{}</b>, {:.3g} ms a frame, {} dB, {:.2f} MB.</li>\n", praise,
-                     escaped(row.method.id), 1e3 * row.frame_seconds.median,
+  return fmt::format("<li>{}: <b>{}</b>, {} ms a frame, {} dB, {:.2f} MB.</li>\n", praise,
+                     escaped(row.method.id), figure_words(1e3 * row.frame_seconds.median),
                      decibel_words(row.error.lit), 1e-6 * static_cast<double>(row.bytes));
 }
 
@@ -114,11 +114,17 @@ std::string error_words(double error) {
   return error == 0.0 ? std::string("0") : fmt::format("{:.3g}", error);
 }
 
+std::string figure_words(double figure) {
+  constexpr double kFourDigits = 999.5;  // 1e+03 is no way to write a thousand
+  return figure < kFourDigits ? fmt::format("{:.3g}", figure) : fmt::format("{:.0f}", figure);
+}
+
 std::string spread_words(const Spread& spread, double unit) {
   if (spread.samples == 0) return "&ndash;";
-  if (spread.samples == 1) return fmt::format("{:.3g}", spread.median / unit);
-  return fmt::format("{:.3g} <small>({:.3g} to {:.3g})</small>", spread.median / unit,
-                     spread.lower / unit, spread.upper / unit);
+  const std::string median = figure_words(spread.median / unit);
+  if (spread.samples == 1) return median;
+  return fmt::format("{} <small>({} to {})</small>", median, figure_words(spread.lower / unit),
+                     figure_words(spread.upper / unit));
 }
 
 std::string megabyte_words(const std::optional<std::size_t>& bytes) {
@@ -172,7 +178,7 @@ std::string opening_words(const MeasurementResult& result, const ReportContext& 
       definition("Times", "Medians, with the middle half of all measurements in brackets.") +
       definition("Differences",
                  "Red where a picture is too bright, blue where it is too dark; full "
-                 "colour is an error of an eighth of the peak.") +
+                 "colour is an error of a sixteenth of the peak.") +
       "</dl></details>\n";
   return html;
 }

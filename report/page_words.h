@@ -29,6 +29,8 @@ std::string count_words(std::size_t count);
 std::string decibel_words(const PictureError& error);
 /// Three digits; "0" for none.
 std::string error_words(double error);
+/// Three digits, or all before the point.
+std::string figure_words(double figure);
 /// "12.3 (11.9 to 13)" in units.
 std::string spread_words(const Spread& spread, double unit);
 /// "120"; a dash where it is not known.

@@ -17,9 +17,9 @@
 namespace nacre {
 namespace {
 
-constexpr int kThumbnail = 176;  ///< pixels a side
+constexpr int kThumbnail = 288;  ///< pixels a side
 /// Full colour in a difference is an error of this part of the peak.
-constexpr double kFullColor = 1.0 / 8.0;
+constexpr double kFullColor = 1.0 / 16.0;
 
 using Rows = std::vector<const Measured*>;
 
@@ -123,12 +123,18 @@ const Truth& truth_of(const MeasurementResult& result, const Subject& subject) {
   return *std::ranges::find(result.truths, subject, &Truth::subject);
 }
 
+/// What the truth lights of a picture, small.
+std::string small_uri(const DisplayImage& picture, const Truth& truth) {
+  const PictureCrop part = lit_part(truth.first_view.volume, truth.peak);
+  return data_uri(thumbnail(cropped(picture, part), kThumbnail));
+}
+
 std::string shown(const Picture& picture, const Truth& truth) {
   DisplayOptions options;
   options.mode = truth.subject.mode;
   options.window = default_display_window(static_cast<float>(truth.peak), truth.subject.mode);
   return fmt::format("<img alt=\"picture\" src=\"{}\">",
-                     data_uri(thumbnail(display_picture(picture, options), kThumbnail)));
+                     small_uri(display_picture(picture, options), truth));
 }
 
 std::string pictures(const MeasurementResult& result, const Rows& rows) {
@@ -140,7 +146,7 @@ std::string pictures(const MeasurementResult& result, const Rows& rows) {
       const Image error = difference(row->first_view.volume, truth.first_view.volume);
       const DisplayImage colors = difference_picture(error, 1.0 / (kFullColor * truth.peak));
       html += fmt::format("<img alt=\"difference from the exact picture\" src=\"{}\">",
-                          data_uri(thumbnail(colors, kThumbnail)));
+                          small_uri(colors, truth));
     }
     html += fmt::format("<figcaption>{}<br>{}</figcaption></figure>\n", escaped(row->method.id),
                         row->method.shells ? decibel_words(row->error.lit) + " dB over lit pixels"

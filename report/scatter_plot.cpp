@@ -16,7 +16,7 @@ namespace {
 constexpr double kWidth = 460.0;
 constexpr double kHeight = 340.0;
 constexpr double kLeft = 52.0;
-constexpr double kRight = 14.0;
+constexpr double kRight = 26.0;
 constexpr double kBandTop = 34.0;  ///< of the band for what has no error
 constexpr double kTop = 66.0;      ///< of the PSNR axis
 constexpr double kBottom = 48.0;
@@ -152,7 +152,9 @@ std::string drawn(const PlotSeries& series, const std::vector<bool>& front, cons
     const double y = frame.y(point.quality);
     path += fmt::format("{}{:.1f} {:.1f}", i == 0 ? "M" : "L", x, y);
     marks += mark(x, y, series.style, front[i], point.title);
-    marks += fmt::format(R"(<text class="name" x="{:.1f}" y="{:.1f}">{}</text>)", x + 8.0, y - 5.0,
+    const bool room = x < 0.8 * kWidth;  // else the word goes to the mark's left
+    marks += fmt::format(R"(<text class="name" x="{:.1f}" y="{:.1f}" text-anchor="{}">{}</text>)",
+                         room ? x + 8.0 : x - 9.0, y - 5.0, room ? "start" : "end",
                          escaped(point.label));
   }
   const auto kind = static_cast<std::size_t>(series.style) % kColors.size();

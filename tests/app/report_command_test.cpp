@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "tests/support/run_command.h"
 #include "tests/support/scratch_folder.h"
@@ -35,7 +36,7 @@ class ReportCommand : public ::testing::Test {
   /// Runs a row's commands; the errors that the last of them, `compare`, finds.
   json repeated(const json& row) const {
     json found;
-    for (const std::string line : row["commands"]) {
+    for (const std::string& line : row["commands"].get<std::vector<std::string>>()) {
       EXPECT_EQ(line.rfind("nacre ", 0), 0U) << line;
       const CommandResult result = nacre(line.substr(6) + " -q --json -");
       EXPECT_EQ(result.status, 0) << line << "\n" << result.errors;

@@ -36,5 +36,28 @@ TEST(Markup, ThumbnailOfALineStaysInside) {
   for (const std::uint16_t value : small.pixels) EXPECT_EQ(value, 9);
 }
 
+TEST(Markup, LitPartHoldsWhatIsLit) {
+  Image image = make_image(100, 50);
+  image.at(40, 20) = 1.0F;
+  image.at(60, 30) = 0.5F;
+  const PictureCrop part = lit_part(image, 1.0);
+  EXPECT_LE(part.x, 40);
+  EXPECT_LE(part.y, 20);
+  EXPECT_GT(part.x + part.width, 60);
+  EXPECT_GT(part.y + part.height, 30);
+  EXPECT_LT(part.width, 50);
+  EXPECT_EQ(lit_part(make_image(9, 7), 1.0).width, 9) << "all of a dark picture";
+}
+
+TEST(Markup, CroppingKeepsPixelsAndChannels) {
+  const DisplayImage picture{3,
+                             2,
+                             3,
+                             {0, 1, 2, 10, 11, 12, 20, 21, 22,  //
+                              30, 31, 32, 40, 41, 42, 50, 51, 52}};
+  const DisplayImage part = cropped(picture, {1, 1, 2, 1});
+  EXPECT_EQ(part.pixels, (std::vector<std::uint16_t>{40, 41, 42, 50, 51, 52}));
+}
+
 }  // namespace
 }  // namespace nacre

@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 #include <fstream>
+#include <iomanip>
 #include <string>
 
 namespace nacre::testing {
@@ -28,8 +29,8 @@ inline void expect_held(const StabilityCase& held) {
       << held.name << ": " << held.naive_formula << " would do, so the case shows nothing";
   if (const char* path = std::getenv("NACRE_STABILITY_TABLE")) {
     std::ofstream(path, std::ios::app)
-        << "| " << held.name << " | " << held.unit << " | " << held.bound << " | " << held.seen
-        << " | " << held.naive_formula << " | " << held.naive << " |\n";
+        << std::setprecision(3) << "| " << held.name << " | " << held.unit << " | " << held.bound
+        << " | " << held.seen << " | " << held.naive_formula << " | " << held.naive << " |\n";
   }
 }
 
