@@ -4,18 +4,22 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "app/command.h"
 #include "app/error_explaining.h"
+#include "app/picture_output.h"
 #include "app/thread_limit.h"
 #include "core/error.h"
 #include "io/picture_file.h"
 #include "io/png_picture.h"
 #include "report/picture_error.h"
+#include "report/picture_series.h"
 
 namespace nacre {
 namespace {
@@ -113,13 +117,25 @@ void warn_of_other_mode(const std::optional<PictureMode>& a, const std::optional
   if (a && b && *a != *b) reporter.warn("the two pictures are of different modes");
 }
 
+/// A picture, or those of a turntable ("view-%03d.tif") as one, the first on top.
+PictureFile read_views(const std::string& name) {
+  if (numbered_name(name, 0) == name) return read_picture(name);
+  PictureFile first = read_picture(numbered_name(name, 0));
+  std::vector<Image> views;
+  views.push_back(std::move(first.image));
+  for (int view = 1; std::filesystem::exists(numbered_name(name, view)); ++view) {
+    views.push_back(read_picture(numbered_name(name, view)).image);
+  }
+  return {stacked(views), first.mode};
+}
+
 Compared compare_files(const CompareFlags& flags, Reporter& reporter) {
   if (flags.picture.empty() || flags.truth.empty()) {
     throw Error(ErrorCode::BadArgument,
                 "compare: found fewer than two pictures, expected PICTURE and TRUTH, or "
                 "--explain-error");
   }
-  Compared compared{read_picture(flags.picture), read_picture(flags.truth), flags.truth, {}};
+  Compared compared{read_views(flags.picture), read_views(flags.truth), flags.truth, {}};
   warn_of_other_mode(compared.picture.mode, compared.truth.mode, reporter);
   return compared;
 }
@@ -219,7 +235,9 @@ void add_compare_verb(CLI::App& app, int& status) {
       "Example: nacre compare shells.tif exact.tif -o difference.png --min-psnr 45\n"
       "         nacre compare --explain-error head.glb --volume head.nii.gz --azimuth 30");
   auto flags = std::make_shared<CompareFlags>();
-  verb->add_option("PICTURE", flags->picture, "Picture to judge (.tif, or a gray .png)");
+  verb->add_option("PICTURE", flags->picture,
+                   "Picture to judge (.tif, or a gray .png); with %03d in its name all views of a "
+                   "turntable");
   verb->add_option("TRUTH", flags->truth, "Picture it is judged against");
   verb->add_option("-o,--output", flags->output,
                    "Difference, signed: .png amplified in red and blue, .tif as measured");

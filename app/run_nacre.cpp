@@ -6,6 +6,7 @@
 #include <string>
 
 #include "app/command.h"
+#include "app/report_verbs.h"
 #include "core/error.h"
 
 namespace nacre {
@@ -74,6 +75,8 @@ int run_nacre(int argc, char** argv) {
   add_reference_verb(app, status);
   add_compare_verb(app, status);
   add_info_verb(app, status);
+  add_report_verb(app, status);
+  add_tables_verb(app, status);
   if (argc == 1) {
     fmt::print("{}", app.help());
     return kWrongUse;

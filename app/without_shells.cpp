@@ -1,5 +1,9 @@
 // What a build without the shell tools says where one with them works.
+#include <CLI/CLI.hpp>
+
+#include "app/command.h"
 #include "app/error_explaining.h"
+#include "app/report_verbs.h"
 #include "app/shell_building.h"
 #include "core/error.h"
 
@@ -10,6 +14,13 @@ namespace {
   throw Error(ErrorCode::Unsupported,
               "found a build without the shell tools, expected one with CGAL and OpenMesh "
               "(NACRE_BUILD_AUTHORING)");
+}
+
+/// A verb that takes anything, to say that it is not here.
+void add_missing_verb(CLI::App& app, const char* name, const char* what) {
+  CLI::App* verb = app.add_subcommand(name, what);
+  verb->allow_extras();
+  verb->callback([] { refuse(); });
 }
 
 }  // namespace
@@ -28,6 +39,14 @@ CompressedSet build_compressed_set(const ShellFlags& /*flags*/, EmissionVolume /
 ExplainedError explain_error(const ExplainFlags& /*flags*/, std::optional<Image> /*picture*/,
                              Reporter& /*reporter*/) {
   refuse();
+}
+
+void add_report_verb(CLI::App& app, int& /*status*/) {
+  add_missing_verb(app, "report", "Error against run time (not in this build)");
+}
+
+void add_tables_verb(CLI::App& app, int& /*status*/) {
+  add_missing_verb(app, "tables", "A paper's tables remade (not in this build)");
 }
 
 }  // namespace nacre

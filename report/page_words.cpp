@@ -1,0 +1,227 @@
+#include "report/page_words.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+#include "report/markup.h"
+
+namespace nacre {
+namespace {
+
+constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kBackends{{
+    {"exact", "exact walk: every ray through the volume itself"},
+    {"cpu", "cpu: shells drawn by the processor alone"},
+    {"osmesa", "osmesa: shells drawn by OpenGL in software (OSMesa)"},
+    {"egl", "egl: shells drawn by OpenGL (EGL)"},
+}};
+
+const Measured* least(const std::vector<const Measured*>& rows, double (*price)(const Measured&)) {
+  const Measured* best = nullptr;
+  for (const Measured* row : rows) {
+    if (row->method.shells && (best == nullptr || price(*row) < price(*best))) best = row;
+  }
+  return best;
+}
+
+double frame_price(const Measured& row) { return row.frame_seconds.median; }
+double byte_price(const Measured& row) { return static_cast<double>(row.bytes); }
+double error_price(const Measured& row) { return row.error.lit.rmse; }
+
+std::string row_words(std::string_view praise, const Measured& row) {
+  return fmt::format("<li>{}: <b>{}</b>, {} ms a frame, {} dB, {:.2f} MB.</li>\n", praise,
+                     escaped(row.method.id), figure_words(1e3 * row.frame_seconds.median),
+                     decibel_words(row.error.lit), 1e-6 * static_cast<double>(row.bytes));
+}
+
+std::string definition(std::string_view term, const std::string& text) {
+  return fmt::format("<dt>{}</dt><dd>{}</dd>\n", term, text);
+}
+
+}  // namespace
+
+std::string method_words(const Method& method) {
+  if (!method.shells) {
+    const std::string at =
+        method.subject.mode == PictureMode::Count || method.subject.mode == PictureMode::Iso
+            ? fmt::format(", levels {}", text_of(method.subject.levels))
+            : "";
+    return "exact walk" + at;
+  }
+  const ShellRecipe& shells = *method.shells;
+  std::string words = shells.levels.uniform > 0 ? fmt::format("{} levels", shells.levels.uniform)
+                                                : fmt::format("level {}", text_of(shells.levels));
+  if (shells.tolerance > 0.0) words += fmt::format(", tolerance {}", shells.tolerance);
+  if (shells.quantization_bits > 0) words += fmt::format(", {} bits", shells.quantization_bits);
+  words += ", " + method.backend;
+  if (method.part == "depth") words += fmt::format(", depth {}", name(method.depth));
+  if (method.part == "target") words += fmt::format(", target {}", name(method.target));
+  if (method.part == "occlusion") words += fmt::format(", by {}", name(method.occlusion));
+  return words;
+}
+
+std::string backend_words(const std::string& backend) {
+  for (const auto& [name, words] : kBackends) {
+    if (name == backend) return std::string(words);
+  }
+  return backend;
+}
+
+int style_of(const std::string& backend) {
+  const auto found =
+      std::ranges::find_if(kBackends, [&](const auto& entry) { return entry.first == backend; });
+  return static_cast<int>(found - kBackends.begin());
+}
+
+std::string plot_label(const Method& method) {
+  if (!method.shells) return "exact walk";
+  if (method.part == "simplified") return fmt::format("{}", method.shells->tolerance);
+  if (method.part == "quantised") {
+    const int bits = method.shells->quantization_bits;
+    return bits > 0 ? fmt::format("{} bits", bits) : "chosen";
+  }
+  if (method.part == "iso") {
+    const double tolerance = method.shells->tolerance;
+    return tolerance > 0.0 ? fmt::format("{}", tolerance) : "all";
+  }
+  if (method.part == "occlusion") return std::string(name(method.occlusion));
+  if (method.part == "depth") return std::string(name(method.depth));
+  if (method.part == "target") return std::string(name(method.target));
+  return text_of(method.shells->levels);
+}
+
+std::string plot_title(const Measured& row) {
+  return fmt::format("{}: {} dB, {:.3g} ms a frame, {:.2f} MB, built in {:.3g} s", row.method.id,
+                     decibel_words(row.error.lit), 1e3 * row.frame_seconds.median,
+                     1e-6 * static_cast<double>(row.bytes), row.build_seconds.median);
+}
+
+std::string count_words(std::size_t count) {
+  if (count < 1000) return fmt::format("{}", count);
+  constexpr const char* kNarrowSpace = "&#8239;";
+  return fmt::format("{}{}{:03}", count_words(count / 1000), kNarrowSpace, count % 1000);
+}
+
+std::string decibel_words(const PictureError& error) {
+  return std::isfinite(error.psnr_db) ? fmt::format("{:.1f}", error.psnr_db) : "exact";
+}
+
+std::string error_words(double error) {
+  return error == 0.0 ? std::string("0") : fmt::format("{:.3g}", error);
+}
+
+std::string figure_words(double figure) {
+  constexpr double kFourDigits = 999.5;  // 1e+03 is no way to write a thousand
+  return figure < kFourDigits ? fmt::format("{:.3g}", figure) : fmt::format("{:.0f}", figure);
+}
+
+std::string spread_words(const Spread& spread, double unit) {
+  if (spread.samples == 0) return "&ndash;";
+  const std::string median = figure_words(spread.median / unit);
+  if (spread.samples == 1) return median;
+  return fmt::format("{} <small>({} to {})</small>", median, figure_words(spread.lower / unit),
+                     figure_words(spread.upper / unit));
+}
+
+std::string megabyte_words(const std::optional<std::size_t>& bytes) {
+  return bytes ? fmt::format("{:.0f}", 1e-6 * static_cast<double>(*bytes)) : "&ndash;";
+}
+
+std::string outcome_words(const std::vector<const Measured*>& rows) {
+  std::string html = "<ul>\n";
+  for (const Measured* row : rows) {
+    if (row->method.shells) continue;
+    html += fmt::format(
+        "<li>Without any error: <b>{}</b>, {:.3g} ms a frame, from the volume's "
+        "{:.2f} MB.</li>\n",
+        escaped(row->method.id), 1e3 * row->frame_seconds.median,
+        1e-6 * static_cast<double>(row->bytes));
+  }
+  const Measured* fastest = least(rows, frame_price);
+  if (fastest == nullptr) return html + "</ul>\n";
+  html += row_words("Fastest shells", *fastest);
+  html += row_words("Smallest file", *least(rows, byte_price));
+  html += row_words("Closest shells", *least(rows, error_price));
+  return html + "</ul>\n";
+}
+
+std::string opening_words(const MeasurementResult& result, const ReportContext& context) {
+  std::string html = fmt::format(
+      "<p>{}; emission rises over the values {}. Each method drew the same {}; {} {} over all "
+      "methods in turn, {:.0f} s in all.</p>\n",
+      escaped(context.samples), escaped(context.window), escaped(context.views), result.passes,
+      result.passes == 1 ? "pass" : "passes", result.seconds);
+  html +=
+      "<details open><summary>How to read this page</summary><dl>\n" +
+      definition("Emission",
+                 "What a point of the volume shines with, from 0 (dark) to 1 (full): a "
+                 "window of the scan's values.") +
+      definition("Exact walk",
+                 "Follows the ray of every pixel through the volume and finds its maximum or its "
+                 "integral in closed form. It is the truth that all else is compared with, and a "
+                 "way of drawing like the others, with a run time of its own.") +
+      definition("Shells",
+                 "Closed surfaces at a number of emission levels, made of triangles once and drawn "
+                 "from any side, without the volume.") +
+      definition("PSNR, RMSE",
+                 "How far a picture is from the exact one: the root of the mean squared "
+                 "difference, and the same on a logarithmic scale against the brightest possible "
+                 "pixel. 6 dB more is half the error. <i>Lit</i> pixels are those where the exact "
+                 "picture shows anything; the black rest flatters the figure over all pixels.") +
+      definition("The plots",
+                 "Up is closer to the truth, left is cheaper. A full mark is a method that no "
+                 "other beats in both; hollow marks are beaten.") +
+      definition("Times", "Medians, with the middle half of all measurements in brackets.") +
+      definition("Differences",
+                 "Red where a picture is too bright, blue where it is too dark; full "
+                 "colour is an error of a sixteenth of the peak.") +
+      "</dl></details>\n";
+  return html;
+}
+
+std::string closing_words(const MeasurementResult& result, const ReportContext& context) {
+  const MachineFacts& machine = context.machine;
+  std::string html = "<section id=\"machine\"><h2>How and where it was measured</h2><dl>\n";
+  html += definition(
+      "Program", fmt::format("Nacre {}, {}{}", escaped(context.version), escaped(machine.compiler),
+                             machine.checked_build ? ", <b>a build with assertions: slow</b>"
+                                                   : ", release build"));
+  html += definition(
+      "Machine",
+      fmt::format("{}, {} threads, {:.1f} GB; {}", escaped(machine.processor), machine.threads,
+                  1e-9 * static_cast<double>(machine.memory_bytes), escaped(machine.system)));
+  std::vector<std::string> devices;
+  for (const Measured& row : result.rows) {
+    const std::string words = row.method.backend + ": " + row.device;
+    if (!row.device.empty() && std::ranges::find(devices, words) == devices.end()) {
+      devices.push_back(words);
+    }
+  }
+  std::string list;
+  for (const std::string& device : devices) list += escaped(device) + "<br>";
+  html += definition("Drawn by", list);
+  html += definition("When", fmt::format("{}; {:.1f} threads of this and other programs ran on "
+                                         "average in the minute before: times are worth what "
+                                         "that leaves",
+                                         escaped(machine.date), machine.load));
+  html +=
+      definition("Build time",
+                 "From the volume in memory to the bytes of the shell file. For the exact walk: "
+                 "the table of brick maxima that lets it skip what cannot matter.");
+  html += definition("Load time",
+                     "From the file's bytes to a renderer that is ready: decoding and "
+                     "handing over. For the exact walk: reading the volume.");
+  html += definition("Memory",
+                     "What the step adds at most to the program's resident memory. "
+                     "Building: with a copy of the volume. Drawing: with the OpenGL "
+                     "driver, if it was not loaded before; for the exact walk without "
+                     "the volume.");
+  html += definition("This page again", "<pre>" + escaped(context.repeats_it) + "</pre>");
+  return html + "</dl></section>\n";
+}
+
+}  // namespace nacre
