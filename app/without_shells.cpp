@@ -1,14 +1,33 @@
 // What a build without the shell tools says where one with them works.
+#include "app/error_explaining.h"
 #include "app/shell_building.h"
 #include "core/error.h"
 
 namespace nacre {
+namespace {
 
-ShellSet build_shell_set(const ShellFlags& /*flags*/, EmissionVolume /*input*/,
-                         Reporter& /*reporter*/, BuildFigures& /*figures*/) {
+[[noreturn]] void refuse() {
   throw Error(ErrorCode::Unsupported,
               "found a build without the shell tools, expected one with CGAL and OpenMesh "
               "(NACRE_BUILD_AUTHORING)");
+}
+
+}  // namespace
+
+ShellSet build_shell_set(const ShellFlags& /*flags*/, EmissionVolume /*input*/,
+                         Reporter& /*reporter*/, BuildFigures& /*figures*/) {
+  refuse();
+}
+
+CompressedSet build_compressed_set(const ShellFlags& /*flags*/, EmissionVolume /*input*/,
+                                   const std::filesystem::path& /*scratch_folder*/,
+                                   Reporter& /*reporter*/, BuildFigures& /*figures*/) {
+  refuse();
+}
+
+ExplainedError explain_error(const ExplainFlags& /*flags*/, std::optional<Image> /*picture*/,
+                             Reporter& /*reporter*/) {
+  refuse();
 }
 
 }  // namespace nacre

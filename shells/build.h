@@ -1,6 +1,9 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,7 +23,9 @@ struct BuildOptions {
   double tolerance_mm = 0.0;          ///< likewise, of their distance
   std::size_t target_triangles = 0;   ///< for the set, shared out evenly; 0: none
   int quantization_bits = 0;          ///< 0 chooses, see `choose_grid`
-  ProgressCallback progress = {};     ///< stages "extract", "simplify", "snap"
+  /// Folder of a nameless file where large surfaces wait for their turn; none: memory holds them.
+  std::optional<std::filesystem::path> scratch_folder = {};
+  ProgressCallback progress = {};  ///< stages "extract", "simplify", "snap"
 };
 
 /// What a build took, and what it left.
@@ -33,6 +38,7 @@ struct BuildReport {
   double extract_seconds = 0.0;
   double simplify_seconds = 0.0;
   double snap_seconds = 0.0;
+  double sink_seconds = 0.0;  ///< in the sink, its share of the time that snapping and it took
 };
 
 struct BuiltShells {
@@ -52,8 +58,18 @@ struct BuiltShells {
 BuiltShells build_shells(const Volume& volume, const EmissionMap& emission,
                          const BuildOptions& options);
 
-/// The same, freeing the volume as soon as no later step looks at it: the surfaces are snapped and
-/// compressed without it beside them in memory.
+/// The same, freeing the volume as soon as no later step looks at it.
 BuiltShells build_shells(Volume&& volume, const EmissionMap& emission, const BuildOptions& options);
+
+/// Takes a finished surface, shell `k` of the set, away: to compress it, say. Called once with each
+/// that is not empty, from several threads at a time; nothing of the set changes but its surfaces.
+using SurfaceSink = std::function<void(const ShellSet& set, std::size_t k, TriangleMesh&& surface)>;
+
+/// The same for a set too large to stand in memory: each surface goes to the sink when it is
+/// finished, and that of the set returned is empty. With a scratch folder, memory holds little more
+/// than the volume and then, that being freed, as many surfaces as fit in its place, at least one
+/// (docs/decisions/006).
+BuiltShells build_shells(Volume&& volume, const EmissionMap& emission, const BuildOptions& options,
+                         const SurfaceSink& sink);
 
 }  // namespace nacre
