@@ -39,8 +39,10 @@ FieldSample LevelField::operator()(const glm::dvec3& p_mm) const noexcept {
     if (below < 0.0) slope_here = slope_below_;
     if (above > 0.0) slope_here = slope_above_;
   }
-  if (field_.is_outside(p)) return {1.0, glm::dvec3(0.0)};
-  if (error > 0.0 && field_.is_on_border(p)) return {0.0, glm::dvec3(0.0)};
+  if (!field_.is_within(p)) {
+    if (field_.is_outside(p)) return {1.0, glm::dvec3(0.0)};
+    if (error > 0.0) return {0.0, glm::dvec3(0.0)};
+  }
   return {error, slope_here * field_.gradient_per_mm(p, at.gradient)};
 }
 

@@ -61,8 +61,10 @@ class EdgeCollapser {
   TriangleMesh take() const;
 
  private:
-  void measure(std::size_t face);
+  void add_plane(std::size_t face);
+  void measure();
   Target target_of(std::uint32_t h) const;
+  bool is_hopeless(std::uint32_t h, const Target& target) const;
   void push(std::uint32_t h);
   bool is_current(const Candidate& candidate) const;
   std::uint32_t stamp_of(std::uint32_t h) const {
@@ -70,7 +72,6 @@ class EdgeCollapser {
   }
   void try_collapse(std::uint32_t h);
   void find_allowed();
-  bool is_hopeless(const Target& target) const;
   std::optional<glm::dvec3> place(const glm::dvec3& start);
   std::optional<glm::dvec3> fit_field(const glm::dvec3& start);
   void commit(std::uint32_t h, const glm::dvec3& p);
@@ -79,7 +80,9 @@ class EdgeCollapser {
   ClosedMesh mesh_;
   std::vector<glm::dvec3> positions_;
   std::vector<Quadric> quadrics_;
+  bool is_bounded_;                     ///< by the field's error
   std::vector<float> face_error_;       ///< sampled, of each triangle as it is
+  std::vector<float> vertex_error_;     ///< most that a triangle at each vertex has had
   std::vector<std::uint32_t> changed_;  ///< when each vertex changed last
   std::uint32_t clock_ = 0;
   DistanceBudget distance_;
@@ -98,7 +101,11 @@ EdgeCollapser::EdgeCollapser(const TriangleMesh& surface, const SimplifyOptions&
       mesh_(surface.triangles, surface.positions.size()),
       positions_(mesh_.vertex_count()),
       quadrics_(mesh_.vertex_count()),
-      face_error_(options.field ? mesh_.triangle_count() : 0, 0.0f),
+      // A target alone has no bound.
+      is_bounded_(options.field &&
+                  (options.error_tolerance > 0.0 || options.target_triangles == 0)),
+      face_error_(is_bounded_ ? mesh_.triangle_count() : 0, 0.0f),
+      vertex_error_(mesh_.vertex_count(), static_cast<float>(options.error_tolerance)),
       changed_(mesh_.vertex_count(), 0),
       distance_(options.tolerance_mm, mesh_.triangle_count()),
       triangles_(mesh_.triangle_count()),
@@ -106,31 +113,54 @@ EdgeCollapser::EdgeCollapser(const TriangleMesh& surface, const SimplifyOptions&
   for (std::uint32_t v = 0; v < positions_.size(); ++v) {
     positions_[v] = glm::dvec3(surface.positions[mesh_.source(v)]);
   }
-  for (std::size_t face = 0; face < mesh_.triangle_count(); ++face) measure(face);
+  for (std::size_t face = 0; face < mesh_.triangle_count(); ++face) add_plane(face);
+  if (is_bounded_) measure();
 }
 
-/// Notes a triangle's error, and adds its plane to its corners' quadrics: the field's tangent plane
-/// at its centre, or its own plane where the field has none.
-void EdgeCollapser::measure(std::size_t face) {
+/// Adds a triangle's plane to its corners' quadrics: the field's tangent plane at its centre, or
+/// its own plane where the field has none.
+void EdgeCollapser::add_plane(std::size_t face) {
   const glm::uvec3 t = mesh_.triangle(face);
   const glm::dvec3& a = positions_[t.x];
-  const glm::dvec3& b = positions_[t.y];
-  const glm::dvec3& c = positions_[t.z];
-  const glm::dvec3 twice_area = glm::cross(b - a, c - a);
+  const glm::dvec3 twice_area = glm::cross(positions_[t.y] - a, positions_[t.z] - a);
   const double area = 0.5 * glm::length(twice_area);
-  const glm::dvec3 center = (a + b + c) / 3.0;
+  const glm::dvec3 center = (a + positions_[t.y] + positions_[t.z]) / 3.0;
   FieldSample at{0.0, glm::dvec3(0.0)};
-  if (options_.field) {
-    at = options_.field(center);
-    face_error_[face] =
-        static_cast<float>(triangle_error(options_.field, options_.sample_spacing_mm, a, b, c));
-  }
+  if (options_.field) at = options_.field(center);
   if (at.gradient == glm::dvec3(0.0) && area > 0.0) {
     at = {0.0, twice_area / (2.0 * area * options_.sample_spacing_mm)};
   }
   Quadric plane;
   plane.add(at.gradient, at.error - glm::dot(at.gradient, center), area / 3.0);
   for (const std::uint32_t v : {t.x, t.y, t.z}) quadrics_[v] += plane;
+}
+
+/// Samples the error of every triangle: its inside, its sides and its corners.
+void EdgeCollapser::measure() {
+  std::vector<float> at_vertex(positions_.size());
+  std::transform(positions_.begin(), positions_.end(), at_vertex.begin(), [&](const glm::dvec3& p) {
+    return static_cast<float>(std::abs(options_.field(p).error));
+  });
+  const double spacing = options_.sample_spacing_mm;
+  for (std::uint32_t h = 0; h < mesh_.half_edge_count(); ++h) {
+    float& error = face_error_[h / 3];
+    const glm::dvec3& a = positions_[mesh_.from(h)];
+    const glm::dvec3& b = positions_[mesh_.to(h)];
+    error = std::max(error, at_vertex[mesh_.from(h)]);
+    if (h % 3 == 0) {
+      const double inner = inner_error(options_.field, spacing, a, b, positions_[mesh_.apex(h)]);
+      error = std::max(error, static_cast<float>(inner));
+    }
+    if (h > mesh_.opposite(h)) continue;
+    const auto side = static_cast<float>(side_error(options_.field, spacing, a, b));
+    float& beyond = face_error_[mesh_.opposite(h) / 3];
+    error = std::max(error, side);
+    beyond = std::max(beyond, side);
+  }
+  for (std::uint32_t h = 0; h < mesh_.half_edge_count(); ++h) {
+    float& error = vertex_error_[mesh_.from(h)];
+    error = std::max(error, face_error_[h / 3]);
+  }
 }
 
 Target EdgeCollapser::target_of(std::uint32_t h) const {
@@ -150,9 +180,18 @@ Target EdgeCollapser::target_of(std::uint32_t h) const {
   return {middle + step, error + kLengthCost * squared_length * trace, quadric.weight};
 }
 
+/// Whether the quadric's error is too large to be worth sampling the field.
+bool EdgeCollapser::is_hopeless(std::uint32_t h, const Target& target) const {
+  if (!is_bounded_) return false;
+  const double most =
+      kMeanPart * std::max(vertex_error_[mesh_.from(h)], vertex_error_[mesh_.to(h)]);
+  return target.cost > most * most * target.area;
+}
+
 void EdgeCollapser::push(std::uint32_t h) {
-  const auto cost = static_cast<float>(target_of(h).cost);
-  queue_.push({cost, std::min(h, mesh_.opposite(h)), stamp_of(h)});
+  const Target target = target_of(h);
+  if (is_hopeless(h, target)) return;
+  queue_.push({static_cast<float>(target.cost), std::min(h, mesh_.opposite(h)), stamp_of(h)});
 }
 
 bool EdgeCollapser::is_current(const Candidate& candidate) const {
@@ -163,20 +202,10 @@ bool EdgeCollapser::is_current(const Candidate& candidate) const {
 /// What each of the star's triangles may be off: the tolerance, or as much as it was.
 void EdgeCollapser::find_allowed() {
   allowed_.clear();
-  // A target alone has no bound.
-  const bool is_bounded = options_.error_tolerance > 0.0 || options_.target_triangles == 0;
   for (const StarTriangle& t : star_.triangles) {
-    allowed_.push_back(is_bounded && options_.field
-                           ? std::max(options_.error_tolerance, double{face_error_[t.face]})
-                           : kUnbounded);
+    allowed_.push_back(is_bounded_ ? std::max(options_.error_tolerance, double{face_error_[t.face]})
+                                   : kUnbounded);
   }
-}
-
-/// Whether the quadric's error is too large to be worth sampling the field.
-bool EdgeCollapser::is_hopeless(const Target& target) const {
-  if (!options_.field) return false;
-  const double most = kMeanPart * *std::max_element(allowed_.begin(), allowed_.end());
-  return target.cost > most * most * target.area;
 }
 
 /// Where the apex follows the field best within what is allowed, from `start`.
@@ -216,7 +245,6 @@ void EdgeCollapser::try_collapse(std::uint32_t h) {
   star_of_collapse(mesh_, positions_, h, star_);
   find_allowed();
   const Target target = target_of(h);
-  if (is_hopeless(target)) return;
   // The ends come last: a cap's rim has to stay in its plane.
   for (const glm::dvec3& start :
        {target.point, positions_[mesh_.from(h)], positions_[mesh_.to(h)]}) {
@@ -229,13 +257,14 @@ void EdgeCollapser::try_collapse(std::uint32_t h) {
 
 void EdgeCollapser::commit(std::uint32_t h, const glm::dvec3& p) {
   distance_.commit(star_, p);
-  if (options_.field) {
+  if (is_bounded_) {
     for (std::size_t i = 0; i < star_.triangles.size(); ++i) {
       face_error_[star_.triangles[i].face] = static_cast<float>(errors_[i]);
     }
   }
   const std::uint32_t u = mesh_.from(h);
   const std::uint32_t v = mesh_.to(h);
+  vertex_error_[v] = std::max(vertex_error_[u], vertex_error_[v]);
   mesh_.collapse(h);
   triangles_ -= 2;
   positions_[v] = p;

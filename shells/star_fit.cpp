@@ -142,21 +142,23 @@ glm::dvec3 StarFit::step() const {
   return solve_symmetric(diagonal_ + kDamping * mean, beside_, right_);
 }
 
-double triangle_error(const SurfaceField& field, double spacing_mm, const glm::dvec3& a,
-                      const glm::dvec3& b, const glm::dvec3& c) {
+double inner_error(const SurfaceField& field, double spacing_mm, const glm::dvec3& a,
+                   const glm::dvec3& b, const glm::dvec3& c) {
   double worst = 0.0;
-  const auto visit = [&](const glm::dvec3& p) {
+  visit_inside(a, b, c, spacing_mm, [&](const glm::dvec3& p, double) {
     worst = std::max(worst, std::abs(field(p).error));
     return true;
-  };
-  const auto visit_side = [&](const glm::dvec3& from, const glm::dvec3& to) {
-    const int n = parts_of(squared(to - from), spacing_mm);
-    for (int i = 0; i < n; ++i) visit(from + (to - from) * (static_cast<double>(i) / n));
-  };
-  visit_inside(a, b, c, spacing_mm, [&](const glm::dvec3& p, double) { return visit(p); });
-  visit_side(a, b);
-  visit_side(b, c);
-  visit_side(c, a);
+  });
+  return worst;
+}
+
+double side_error(const SurfaceField& field, double spacing_mm, const glm::dvec3& a,
+                  const glm::dvec3& b) {
+  double worst = 0.0;
+  const int n = parts_of(squared(b - a), spacing_mm);
+  for (int i = 1; i < n; ++i) {
+    worst = std::max(worst, std::abs(field(a + (b - a) * (static_cast<double>(i) / n)).error));
+  }
   return worst;
 }
 

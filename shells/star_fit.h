@@ -67,8 +67,12 @@ class StarFit {
   double squared_weights_ = 0.0;
 };
 
-/// Largest |error| of a triangle, sampled like a star's, corners and all sides included.
-double triangle_error(const SurfaceField& field, double spacing_mm, const glm::dvec3& a,
-                      const glm::dvec3& b, const glm::dvec3& c);
+/// Largest |error| strictly within a triangle, sampled like a star's.
+double inner_error(const SurfaceField& field, double spacing_mm, const glm::dvec3& a,
+                   const glm::dvec3& b, const glm::dvec3& c);
+
+/// Largest |error| strictly between the ends of a side, likewise.
+double side_error(const SurfaceField& field, double spacing_mm, const glm::dvec3& a,
+                  const glm::dvec3& b);
 
 }  // namespace nacre

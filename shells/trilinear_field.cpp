@@ -39,6 +39,7 @@ double mix(double a, double b, double s) noexcept { return a + (b - a) * s; }
 TrilinearField::TrilinearField(const Volume& volume)
     : volume_(volume),
       box_(voxel_box(volume.dims)),
+      within_{box_.lo + kOnBorder, box_.hi - kOnBorder},
       value_(visit_scalar_type(volume.type, [](auto zero) { return &value_of<decltype(zero)>; })),
       sample_(
           visit_scalar_type(volume.type, [](auto zero) { return &sample_of<decltype(zero)>; })) {
@@ -101,25 +102,20 @@ ValueAndGradient TrilinearField::sample_of(const TrilinearField& field,
 }
 
 bool TrilinearField::is_on_border(const glm::dvec3& p, int axis) const noexcept {
-  return p[axis] <= box_.lo[axis] + kOnBorder || p[axis] >= box_.hi[axis] - kOnBorder;
+  return p[axis] <= within_.lo[axis] || p[axis] >= within_.hi[axis];
 }
 
-bool TrilinearField::is_on_border(const glm::dvec3& p) const noexcept {
-  return is_on_border(p, 0) || is_on_border(p, 1) || is_on_border(p, 2);
-}
+bool TrilinearField::is_on_border(const glm::dvec3& p) const noexcept { return !is_within(p); }
 
 bool TrilinearField::is_outside(const glm::dvec3& p) const noexcept {
   return glm::any(glm::lessThan(p, box_.lo - kOnBorder)) ||
          glm::any(glm::greaterThan(p, box_.hi + kOnBorder));
 }
 
-glm::dvec3 TrilinearField::gradient_per_mm(const glm::dvec3& p,
-                                           const glm::dvec3& per_voxel) const noexcept {
-  const glm::dmat3 voxel_from_local(voxel_from_local_);
-  glm::dvec3 gradient = per_voxel * voxel_from_local;
-  if (!is_on_border(p)) return gradient;
-  const glm::dmat3 normals = glm::transpose(voxel_from_local);  // of the planes
-  std::array<glm::dvec3, 3> fixed;                              // orthonormal
+/// A gradient without its parts across the border planes that p lies in.
+glm::dvec3 TrilinearField::along_border(const glm::dvec3& p, glm::dvec3 gradient) const noexcept {
+  const glm::dmat3 normals = glm::transpose(glm::dmat3(voxel_from_local_));  // of the planes
+  std::array<glm::dvec3, 3> fixed;                                           // orthonormal
   std::size_t count = 0;
   for (int axis = 0; axis < 3; ++axis) {
     if (!is_on_border(p, axis)) continue;

@@ -40,17 +40,29 @@ class TrilinearField {
 
   /// A gradient per voxel as one per mm. In a border plane the part within the plane only: who
   /// follows it stays there.
-  glm::dvec3 gradient_per_mm(const glm::dvec3& p_voxel, const glm::dvec3& per_voxel) const noexcept;
+  glm::dvec3 gradient_per_mm(const glm::dvec3& p_voxel,
+                             const glm::dvec3& per_voxel) const noexcept {
+    const glm::dvec3 gradient = per_voxel * glm::dmat3(voxel_from_local_);
+    return is_within(p_voxel) ? gradient : along_border(p_voxel, gradient);
+  }
 
   /// Whether a position lies in a border plane of the box, as near as floats tell.
   bool is_on_border(const glm::dvec3& p_voxel) const noexcept;
   bool is_on_border(const glm::dvec3& p_voxel, int axis) const noexcept;
+  /// Whether it lies farther within the box than that.
+  bool is_within(const glm::dvec3& p_voxel) const noexcept {
+    const glm::dvec3& lo = within_.lo;
+    const glm::dvec3& hi = within_.hi;
+    return p_voxel.x > lo.x && p_voxel.y > lo.y && p_voxel.z > lo.z && p_voxel.x < hi.x &&
+           p_voxel.y < hi.y && p_voxel.z < hi.z;
+  }
   /// Whether it lies farther out than that.
   bool is_outside(const glm::dvec3& p_voxel) const noexcept;
 
   const VoxelBox& box() const noexcept { return box_; }
 
  private:
+  glm::dvec3 along_border(const glm::dvec3& p_voxel, glm::dvec3 gradient) const noexcept;
   template <class T>
   static double value_of(const TrilinearField& field, const glm::dvec3& p_voxel) noexcept;
   template <class T>
@@ -59,6 +71,7 @@ class TrilinearField {
 
   const Volume& volume_;
   VoxelBox box_;
+  VoxelBox within_;  ///< the box without what counts as its border
   glm::dmat4 voxel_from_local_;
   double (*value_)(const TrilinearField&, const glm::dvec3&) noexcept;
   ValueAndGradient (*sample_)(const TrilinearField&, const glm::dvec3&) noexcept;
