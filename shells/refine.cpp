@@ -14,6 +14,8 @@ namespace {
 
 constexpr int kNewtonSteps = 6;
 constexpr double kCloseEnough = 0.1;  // of the tolerance
+constexpr double kLeastTurn = 0.05;   // cosine between a triangle's normal and a part's
+constexpr int kHalvings = 2;          // of how far a vertex goes, before it stays
 
 /// The point nearest to the field's zero among those that Newton's method comes by from p, along
 /// the gradient.
@@ -50,6 +52,8 @@ class Divider {
         middle_(mesh_.half_edge_count(), ClosedMesh::kNone) {}
 
   bool mark();
+  /// Draws back new vertices about which a triangle's parts would turn too far, or over.
+  void straighten();
   TriangleMesh divided() const;
 
  private:
@@ -59,7 +63,12 @@ class Divider {
   bool strays(const glm::dvec3& p) const {
     return std::abs(field_(p).error) > options_.error_tolerance;
   }
+  glm::dvec3 new_position(std::uint32_t v) const {
+    return v < mesh_.vertex_count() ? position(v) : glm::dvec3(added_[v - mesh_.vertex_count()]);
+  }
   void divide(std::uint32_t h);
+  bool parts_turn(std::size_t t);
+  bool draw_back(std::uint32_t h);
   void add_triangles(std::size_t t, std::vector<glm::uvec3>& triangles) const;
 
   const TriangleMesh& surface_;
@@ -68,6 +77,8 @@ class Divider {
   ClosedMesh mesh_;
   std::vector<std::uint32_t> middle_;  ///< of each half-edge: the number of its new vertex
   std::vector<glm::vec3> added_;
+  std::vector<int> halvings_;      ///< of each vertex added
+  std::vector<glm::uvec3> parts_;  ///< of the triangle at hand
 };
 
 void Divider::divide(std::uint32_t h) {
@@ -96,6 +107,50 @@ bool Divider::mark() {
   return !added_.empty();
 }
 
+/// Whether a part of t turns too far against it.
+bool Divider::parts_turn(std::size_t t) {
+  const auto h = static_cast<std::uint32_t>(3 * t);
+  if (middle_[h] == ClosedMesh::kNone && middle_[h + 1] == ClosedMesh::kNone &&
+      middle_[h + 2] == ClosedMesh::kNone) {
+    return false;
+  }
+  std::vector<glm::uvec3>& parts = parts_;
+  parts.clear();
+  add_triangles(t, parts);
+  const auto normal = [&](const glm::uvec3& p) {
+    const glm::dvec3 a = new_position(p.x);
+    return glm::cross(new_position(p.y) - a, new_position(p.z) - a);
+  };
+  const glm::dvec3 whole = normal(mesh_.triangle(t));
+  return std::any_of(parts.begin(), parts.end(), [&](const glm::uvec3& p) {
+    const glm::dvec3 part = normal(p);
+    return glm::dot(part, whole) < kLeastTurn * glm::length(part) * glm::length(whole);
+  });
+}
+
+/// @return  whether the vertex on h's edge was not there already
+bool Divider::draw_back(std::uint32_t h) {
+  if (middle_[h] == ClosedMesh::kNone) return false;
+  const std::size_t i = middle_[h] - mesh_.vertex_count();
+  if (halvings_[i] > kHalvings) return false;
+  const glm::vec3 middle(0.5 * (position(mesh_.from(h)) + position(mesh_.to(h))));
+  added_[i] = halvings_[i] == kHalvings ? middle : 0.5f * (added_[i] + middle);
+  ++halvings_[i];
+  return true;
+}
+
+/// Drawn back to the middles of their edges, parts lie in their triangle's plane: this ends.
+void Divider::straighten() {
+  halvings_.assign(added_.size(), 0);
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (std::uint32_t h = 0; h < mesh_.half_edge_count(); h += 3) {
+      if (!parts_turn(h / 3)) continue;
+      for (std::uint32_t i = 0; i < 3; ++i) changed = draw_back(h + i) || changed;
+    }
+  }
+}
+
 /// The one to four triangles that t becomes.
 void Divider::add_triangles(std::size_t t, std::vector<glm::uvec3>& triangles) const {
   const auto h = static_cast<std::uint32_t>(3 * t);
@@ -116,10 +171,8 @@ void Divider::add_triangles(std::size_t t, std::vector<glm::uvec3>& triangles) c
   } else if (count == 2) {
     // The shorter diagonal of what is left of corner b.
     triangles.emplace_back(middle(0), b, middle(1));
-    const auto at = [&](std::uint32_t v) {
-      return v < mesh_.vertex_count() ? position(v) : glm::dvec3(added_[v - mesh_.vertex_count()]);
-    };
-    if (glm::distance(at(a), at(middle(1))) < glm::distance(at(middle(0)), at(c))) {
+    if (glm::distance(new_position(a), new_position(middle(1))) <
+        glm::distance(new_position(middle(0)), new_position(c))) {
       triangles.insert(triangles.end(), {{a, middle(0), middle(1)}, {a, middle(1), c}});
     } else {
       triangles.insert(triangles.end(), {{a, middle(0), c}, {middle(0), middle(1), c}});
@@ -153,6 +206,7 @@ TriangleMesh refine(const TriangleMesh& surface, const SurfaceField& field,
   for (int round = 0; round < options.rounds; ++round) {
     Divider divider(refined, field, options);
     if (!divider.mark()) break;
+    divider.straighten();
     refined = divider.divided();
   }
   return refined;

@@ -20,7 +20,8 @@ struct RefineOptions {
 ///
 /// Contouring follows the field at lattice edges only: a vessel thinner than a voxel comes out as a
 /// prism inside of it. Closed, oriented, manifold as the surface is: an edge is divided for both
-/// its triangles or for none, into two, three or four.
+/// its triangles or for none, into two, three or four. No part of a triangle turns over against it:
+/// new vertices go less far then.
 ///
 /// @param surface  closed, oriented, manifold
 /// @param field    in its frame

@@ -11,7 +11,8 @@ namespace nacre {
 
 /// A triangle of a star: (apex, ring[i], ring[i + 1]).
 struct StarTriangle {
-  glm::dvec3 apex_before;  ///< where its apex lies now
+  glm::dvec3 apex_before;    ///< where its apex lies now
+  glm::dvec3 normal_beyond;  ///< of the triangle across the ring's side, any length
   std::uint32_t face;
 };
 
@@ -39,7 +40,9 @@ void star_of_collapse(const ClosedMesh& mesh, std::span<const glm::dvec3> positi
                       std::uint32_t h, Star& star);
 
 /// Whether the star's triangles, with their apex at p, are as good as a surface's should be: none
-/// turns by more than some 75 degrees against what it was, or is a sliver unless it was one.
+/// turns by more than some 75 degrees against what it was, or is a sliver unless it was one; no
+/// edge between two of them is folded by more than some 155 degrees, or to a triangle beyond unless
+/// it was.
 bool keeps_shape(const Star& star, const glm::dvec3& p);
 
 }  // namespace nacre
