@@ -154,7 +154,8 @@ void simplify_shells(const Volume& volume, const EmissionMap& emission, const Bu
     shell.surface = surfaces.take(k);
     SimplifyOptions bounds;
     bounds.tolerance_mm = options.tolerance_mm;
-    bounds.sample_spacing_mm = std::min({spacing.x, spacing.y, spacing.z});
+    bounds.samples_from_mm = field.voxel_from_mm();
+    bounds.spacing_mm = std::min({spacing.x, spacing.y, spacing.z});
     if (options.emission_tolerance > 0.0) {
       bounds.error_tolerance = options.emission_tolerance;
       bounds.field = LevelField(field, emission, shell.emission);
@@ -163,7 +164,7 @@ void simplify_shells(const Volume& volume, const EmissionMap& emission, const Bu
     if (bounds.field) {
       shell.surface = refine(shell.surface, bounds.field,
                              {.error_tolerance = std::max(options.emission_tolerance, kFineEnough),
-                              .reach_mm = bounds.sample_spacing_mm});
+                              .reach_mm = bounds.spacing_mm});
     }
     bounds.grid = set.grid;
     // Every shell keeps the same part of its triangles.

@@ -45,10 +45,11 @@ glm::dvec3 best_point(const QuantizationGrid& grid, const Star& star, const Star
 
 }  // namespace
 
-void fit_to_grid(const ClosedMesh& mesh, const SurfaceField& field, double spacing_mm,
-                 const QuantizationGrid& grid, std::span<glm::dvec3> positions) {
+void fit_to_grid(const ClosedMesh& mesh, const SurfaceField& field,
+                 const glm::dmat3& samples_from_mm, const QuantizationGrid& grid,
+                 std::span<glm::dvec3> positions) {
   Star star;
-  StarFit fit(field, spacing_mm);
+  StarFit fit(field, samples_from_mm);
   std::vector<double> allowed;
   for (std::uint32_t v = 0; v < positions.size(); ++v) {
     if (mesh.outgoing(v) == ClosedMesh::kNone) continue;

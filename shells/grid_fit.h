@@ -1,5 +1,6 @@
 #pragma once
 
+#include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 #include <span>
 
@@ -18,11 +19,12 @@ namespace nacre {
 ///
 /// @param positions   of the mesh's vertices, in the grid's frame; moved by at most 1.5 steps along
 ///                    each axis
-/// @param spacing_mm  of the samples on a triangle
+/// @param samples_from_mm  of `StarFit`
 ///
 /// Two vertices may come to share a point, and a triangle that lies across a step may lose its
 /// area: `snap` resolves both. O(vertices), in the order of the vertices.
-void fit_to_grid(const ClosedMesh& mesh, const SurfaceField& field, double spacing_mm,
-                 const QuantizationGrid& grid, std::span<glm::dvec3> positions);
+void fit_to_grid(const ClosedMesh& mesh, const SurfaceField& field,
+                 const glm::dmat3& samples_from_mm, const QuantizationGrid& grid,
+                 std::span<glm::dvec3> positions);
 
 }  // namespace nacre

@@ -26,7 +26,7 @@ constexpr double kLengthCost = 1e-4;
 // fail at the samples, and what would not costs more of the picture than it saves.
 constexpr double kMeanPart = 0.7;
 constexpr int kFitRounds = 2;
-constexpr double kNoStep = 0.01;  // of the sample spacing: not worth another round
+constexpr double kNoStep = 0.01;  // of the spacing: not worth another round
 constexpr double kReach = 0.5;    // likewise: no fit goes farther from where it starts
 
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
@@ -109,7 +109,7 @@ EdgeCollapser::EdgeCollapser(const TriangleMesh& surface, const SimplifyOptions&
       changed_(mesh_.vertex_count(), 0),
       distance_(options.tolerance_mm, mesh_.triangle_count()),
       triangles_(mesh_.triangle_count()),
-      fit_(options.field, options.sample_spacing_mm) {
+      fit_(options.field, options.samples_from_mm) {
   for (std::uint32_t v = 0; v < positions_.size(); ++v) {
     positions_[v] = glm::dvec3(surface.positions[mesh_.source(v)]);
   }
@@ -128,7 +128,7 @@ void EdgeCollapser::add_plane(std::size_t face) {
   FieldSample at{0.0, glm::dvec3(0.0)};
   if (options_.field) at = options_.field(center);
   if (at.gradient == glm::dvec3(0.0) && area > 0.0) {
-    at = {0.0, twice_area / (2.0 * area * options_.sample_spacing_mm)};
+    at = {0.0, twice_area / (2.0 * area * options_.spacing_mm)};
   }
   Quadric plane;
   plane.add(at.gradient, at.error - glm::dot(at.gradient, center), area / 3.0);
@@ -141,18 +141,18 @@ void EdgeCollapser::measure() {
   std::transform(positions_.begin(), positions_.end(), at_vertex.begin(), [&](const glm::dvec3& p) {
     return static_cast<float>(std::abs(options_.field(p).error));
   });
-  const double spacing = options_.sample_spacing_mm;
+  const glm::dmat3& samples = options_.samples_from_mm;
   for (std::uint32_t h = 0; h < mesh_.half_edge_count(); ++h) {
     float& error = face_error_[h / 3];
     const glm::dvec3& a = positions_[mesh_.from(h)];
     const glm::dvec3& b = positions_[mesh_.to(h)];
     error = std::max(error, at_vertex[mesh_.from(h)]);
     if (h % 3 == 0) {
-      const double inner = inner_error(options_.field, spacing, a, b, positions_[mesh_.apex(h)]);
+      const double inner = inner_error(options_.field, samples, a, b, positions_[mesh_.apex(h)]);
       error = std::max(error, static_cast<float>(inner));
     }
     if (h > mesh_.opposite(h)) continue;
-    const auto side = static_cast<float>(side_error(options_.field, spacing, a, b));
+    const auto side = static_cast<float>(side_error(options_.field, samples, a, b));
     float& beyond = face_error_[mesh_.opposite(h) / 3];
     error = std::max(error, side);
     beyond = std::max(beyond, side);
@@ -222,8 +222,8 @@ std::optional<glm::dvec3> EdgeCollapser::fit_field(const glm::dvec3& start) {
     }
     const glm::dvec3 step = fit_.step();
     p += step;
-    if (!(glm::length(step) > kNoStep * options_.sample_spacing_mm) ||
-        !(glm::distance(p, start) < kReach * options_.sample_spacing_mm)) {
+    if (!(glm::length(step) > kNoStep * options_.spacing_mm) ||
+        !(glm::distance(p, start) < kReach * options_.spacing_mm)) {
       break;
     }
   }
@@ -285,7 +285,7 @@ void EdgeCollapser::run() {
 }
 
 void EdgeCollapser::settle_on_grid() {
-  fit_to_grid(mesh_, options_.field, options_.sample_spacing_mm, *options_.grid, positions_);
+  fit_to_grid(mesh_, options_.field, options_.samples_from_mm, *options_.grid, positions_);
 }
 
 TriangleMesh EdgeCollapser::take() const {

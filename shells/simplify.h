@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <glm/mat3x3.hpp>
 #include <optional>
 
 #include "core/shell_set.h"
@@ -20,8 +21,10 @@ struct SimplifyOptions {
   double error_tolerance = 0.0;
   /// What the surface should be a zero of.
   SurfaceField field = {};
-  /// Distance of the samples on a triangle: the field's least spacing.
-  double sample_spacing_mm = 1.0;
+  /// Turns offsets on a triangle into numbers of samples: voxels from mm.
+  glm::dmat3 samples_from_mm{1.0};
+  /// How far the field's detail reaches: its least spacing. No vertex goes farther at a time.
+  double spacing_mm = 1.0;
 
   /// Vertices end on this grid, at those of its points from where the triangles follow the field
   /// best: an error that rounding each coordinate by itself would make several times larger.

@@ -15,21 +15,22 @@ constexpr double kVolumeWeight = 2.0;  // of the volume, in samples as many as a
 constexpr double kOutOfProportion = 2.0;
 constexpr double kDamping = 1e-3;  // of the normal equations, as a part of their mean eigenvalue
 
-/// Parts of at most a spacing that a length is cut into.
-int parts_of(double squared_length, double spacing) {
-  if (!(squared_length > 4.0 * spacing * spacing)) return kFewestParts;
-  return static_cast<int>(
-      std::min(std::ceil(std::sqrt(squared_length) / spacing), double{kMostParts}));
-}
-
 double squared(const glm::dvec3& v) { return glm::dot(v, v); }
 
-/// Calls `visit(point, weight of p)` with the points strictly within a triangle, a spacing apart;
-/// its centre at least.
+/// Parts of at most a sample's distance that a length is cut into.
+int parts_of(double squared_samples) {
+  if (!(squared_samples > double{kFewestParts * kFewestParts})) return kFewestParts;
+  return static_cast<int>(std::min(std::ceil(std::sqrt(squared_samples)), double{kMostParts}));
+}
+
+/// Calls `visit(point, weight of p)` with the points strictly within a triangle, as far apart as
+/// samples are; its centre at least.
 template <class Visit>
-bool visit_inside(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b, double spacing,
-                  Visit&& visit) {
-  const int n = parts_of(std::max({squared(a - p), squared(b - p), squared(b - a)}), spacing);
+bool visit_inside(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b,
+                  const glm::dmat3& samples_from_mm, Visit&& visit) {
+  const glm::dvec3 to_a = samples_from_mm * (a - p);
+  const glm::dvec3 to_b = samples_from_mm * (b - p);
+  const int n = parts_of(std::max({squared(to_a), squared(to_b), squared(to_b - to_a)}));
   if (n == kFewestParts) return visit((p + a + b) / 3.0, 1.0 / 3.0);
   const double part = 1.0 / n;
   for (int i = 1; i < n - 1; ++i) {
@@ -60,7 +61,7 @@ bool StarFit::add(const glm::dvec3& p, double weight, double allowed, double& wo
 
 bool StarFit::sample_spoke(const glm::dvec3& p, const glm::dvec3& end, double allowed,
                            double& worst) {
-  const int n = parts_of(squared(end - p), spacing_);
+  const int n = parts_of(squared(samples_from_mm_ * (end - p)));
   for (int i = 1; i < n; ++i) {
     const double w = static_cast<double>(i) / n;
     if (!add(w * p + (1.0 - w) * end, w, allowed, worst)) return false;
@@ -70,7 +71,7 @@ bool StarFit::sample_spoke(const glm::dvec3& p, const glm::dvec3& end, double al
 
 bool StarFit::sample_triangle(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b,
                               double allowed, double& worst) {
-  return visit_inside(p, a, b, spacing_, [&](const glm::dvec3& q, double weight) {
+  return visit_inside(p, a, b, samples_from_mm_, [&](const glm::dvec3& q, double weight) {
     return add(q, weight, allowed, worst);
   });
 }
@@ -142,20 +143,20 @@ glm::dvec3 StarFit::step() const {
   return solve_symmetric(diagonal_ + kDamping * mean, beside_, right_);
 }
 
-double inner_error(const SurfaceField& field, double spacing_mm, const glm::dvec3& a,
-                   const glm::dvec3& b, const glm::dvec3& c) {
+double inner_error(const SurfaceField& field, const glm::dmat3& samples_from_mm,
+                   const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
   double worst = 0.0;
-  visit_inside(a, b, c, spacing_mm, [&](const glm::dvec3& p, double) {
+  visit_inside(a, b, c, samples_from_mm, [&](const glm::dvec3& p, double) {
     worst = std::max(worst, std::abs(field(p).error));
     return true;
   });
   return worst;
 }
 
-double side_error(const SurfaceField& field, double spacing_mm, const glm::dvec3& a,
+double side_error(const SurfaceField& field, const glm::dmat3& samples_from_mm, const glm::dvec3& a,
                   const glm::dvec3& b) {
   double worst = 0.0;
-  const int n = parts_of(squared(b - a), spacing_mm);
+  const int n = parts_of(squared(samples_from_mm * (b - a)));
   for (int i = 1; i < n; ++i) {
     worst = std::max(worst, std::abs(field(a + (b - a) * (static_cast<double>(i) / n)).error));
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 #include <span>
 #include <vector>
@@ -13,7 +14,7 @@ namespace nacre {
 /// How well a star with its apex at some point follows a field, and where its apex would follow it
 /// better.
 ///
-/// The error is sampled at the apex, along the spokes and within the triangles, a spacing apart and
+/// The error is sampled at the apex, along the spokes and within the triangles, a voxel apart and
 /// at the middles at least; the ring's own sides stay what they are. A sample has the weight w of
 /// the apex, so that moving this by d changes its error by w g.d to first order: the sum of squares
 /// is least at (sum w^2 g g^T) d = - sum w e g (Gauss, Newton). The volume that the star gains or
@@ -23,8 +24,10 @@ namespace nacre {
 /// Simplification").
 class StarFit {
  public:
-  /// @param field  may be empty: then nothing is ever wrong
-  StarFit(const SurfaceField& field, double spacing_mm) : field_(field), spacing_(spacing_mm) {}
+  /// @param field            may be empty: then nothing is ever wrong
+  /// @param samples_from_mm  turns offsets into numbers of samples: voxels from mm
+  StarFit(const SurfaceField& field, const glm::dmat3& samples_from_mm)
+      : field_(field), samples_from_mm_(samples_from_mm) {}
 
   /// Samples the star about p.
   /// @param allowed  largest |error| of each triangle
@@ -55,7 +58,7 @@ class StarFit {
                        double allowed, double& worst);
 
   const SurfaceField& field_;
-  double spacing_;
+  glm::dmat3 samples_from_mm_;
   bool is_within_ = true;
   bool is_pinned_ = false;
   double squares_ = 0.0;
@@ -68,11 +71,11 @@ class StarFit {
 };
 
 /// Largest |error| strictly within a triangle, sampled like a star's.
-double inner_error(const SurfaceField& field, double spacing_mm, const glm::dvec3& a,
-                   const glm::dvec3& b, const glm::dvec3& c);
+double inner_error(const SurfaceField& field, const glm::dmat3& samples_from_mm,
+                   const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c);
 
 /// Largest |error| strictly between the ends of a side, likewise.
-double side_error(const SurfaceField& field, double spacing_mm, const glm::dvec3& a,
+double side_error(const SurfaceField& field, const glm::dmat3& samples_from_mm, const glm::dvec3& a,
                   const glm::dvec3& b);
 
 }  // namespace nacre

@@ -29,6 +29,9 @@ class TrilinearField {
     return {p_voxel.x, p_voxel.y, p_voxel.z};
   }
 
+  /// The same for offsets.
+  glm::dmat3 voxel_from_mm() const noexcept { return glm::dmat3(voxel_from_local_); }
+
   /// The value at a position in voxel coordinates; beyond the box that of its nearest point.
   double value(const glm::dvec3& p_voxel) const noexcept { return value_(*this, p_voxel); }
 
@@ -42,7 +45,7 @@ class TrilinearField {
   /// follows it stays there.
   glm::dvec3 gradient_per_mm(const glm::dvec3& p_voxel,
                              const glm::dvec3& per_voxel) const noexcept {
-    const glm::dvec3 gradient = per_voxel * glm::dmat3(voxel_from_local_);
+    const glm::dvec3 gradient = per_voxel * voxel_from_mm();
     return is_within(p_voxel) ? gradient : along_border(p_voxel, gradient);
   }
 

@@ -37,7 +37,7 @@ struct Sphere {
 TEST(StarFit, BringsAnApexBackToTheSurface) {
   const Sphere sphere;
   const SurfaceField field = sphere_field;
-  StarFit fit(field, 1.0);
+  StarFit fit(field, glm::dmat3(1.0));
   for (const std::uint32_t v : {0u, 17u, 100u}) {
     const Star star = sphere.star(v);
     const std::vector<double> allowed(star.triangles.size(), kUnbounded);
@@ -57,7 +57,7 @@ TEST(StarFit, BringsAnApexBackToTheSurface) {
 TEST(StarFit, TellsHowTheSumOfSquaresChanges) {
   const Sphere sphere;
   const SurfaceField field = sphere_field;
-  StarFit fit(field, 100.0);  // the same number of samples wherever the apex is
+  StarFit fit(field, glm::dmat3(0.01));  // the same number of samples wherever the apex is
   const Star star = sphere.star(40);
   const std::vector<double> allowed(star.triangles.size(), kUnbounded);
   const glm::dvec3 p = 1.05 * sphere.positions[40];
@@ -73,7 +73,7 @@ TEST(StarFit, TellsHowTheSumOfSquaresChanges) {
 TEST(StarFit, TellsWhatIsPastTheBound) {
   const Sphere sphere;
   const SurfaceField field = sphere_field;
-  StarFit fit(field, 1.0);
+  StarFit fit(field, glm::dmat3(1.0));
   const Star star = sphere.star(3);
   const std::vector<double> tight(star.triangles.size(), 0.3);
   EXPECT_TRUE(fit.sample(star, sphere.positions[3], tight));
@@ -88,7 +88,7 @@ TEST(StarFit, TellsWhatIsPastTheBound) {
 TEST(StarFit, SeesNearlyTheLargestError) {
   const Sphere sphere;
   const SurfaceField field = sphere_field;
-  StarFit fit(field, 0.3);
+  StarFit fit(field, glm::dmat3(4.0));
   const auto error = [](const glm::dvec3& p) { return std::abs(sphere_field(p).error); };
   for (std::uint32_t v = 0; v < sphere.positions.size(); v += 11) {
     const Star star = sphere.star(v);
@@ -110,7 +110,7 @@ TEST(GridFit, PutsVerticesOnTheGridBetterThanRoundingDoes) {
   const QuantizationGrid grid{glm::dvec3(-16.0), 31.75, 7};  // a step of 1/4
   ASSERT_TRUE(is_exact(grid));
   std::vector<glm::dvec3> fitted = sphere.positions;
-  fit_to_grid(sphere.mesh, field, 1.0, grid, fitted);
+  fit_to_grid(sphere.mesh, field, glm::dmat3(1.0), grid, fitted);
   double sum_fitted = 0.0;
   double sum_rounded = 0.0;
   for (std::size_t v = 0; v < fitted.size(); ++v) {
@@ -128,7 +128,7 @@ TEST(GridFit, LeavesPinnedVerticesWhereTheyAre) {
   const SurfaceField pinned = [](const glm::dvec3&) { return FieldSample{0.0, glm::dvec3(0.0)}; };
   const QuantizationGrid grid{glm::dvec3(-16.0), 31.75, 7};
   std::vector<glm::dvec3> fitted = sphere.positions;
-  fit_to_grid(sphere.mesh, pinned, 1.0, grid, fitted);
+  fit_to_grid(sphere.mesh, pinned, glm::dmat3(1.0), grid, fitted);
   for (std::size_t v = 0; v < fitted.size(); ++v) {
     EXPECT_EQ(fitted[v], glm::dvec3(grid_position(grid, nearest_index(grid, sphere.positions[v]))));
   }
