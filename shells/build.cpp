@@ -15,13 +15,19 @@
 #include "core/error.h"
 #include "core/volume_geometry.h"
 #include "extract/marching_cubes.h"
+#include "shells/level_field.h"
 #include "shells/quantization.h"
+#include "shells/refine.h"
 #include "shells/simplify.h"
 #include "shells/trilinear_field.h"
 #include "shells/voxel_checksum.h"
 
 namespace nacre {
 namespace {
+
+// Emission error above which contoured triangles are divided, unless the tolerance is larger: less
+// gains little, for several times the triangles.
+constexpr double kFineEnough = 0.02;
 
 /// What a volume and its surfaces, while they wait, may hold in memory together; and the surfaces
 /// of a larger volume.
@@ -148,16 +154,23 @@ void simplify_shells(const Volume& volume, const EmissionMap& emission, const Bu
     shell.surface = surfaces.take(k);
     SimplifyOptions bounds;
     bounds.tolerance_mm = options.tolerance_mm;
-    bounds.sample_spacing_mm = std::min({spacing.x, spacing.y, spacing.z});
+    bounds.samples_from_mm = field.voxel_from_mm();
+    bounds.spacing_mm = std::min({spacing.x, spacing.y, spacing.z});
     if (options.emission_tolerance > 0.0) {
       bounds.error_tolerance = options.emission_tolerance;
-      bounds.error = LevelError(field, emission, shell.emission);
+      bounds.field = LevelField(field, emission, shell.emission);
     }
+    const auto extracted = static_cast<double>(shell.surface.triangles.size());
+    if (bounds.field) {
+      shell.surface = refine(shell.surface, bounds.field,
+                             {.error_tolerance = std::max(options.emission_tolerance, kFineEnough),
+                              .reach_mm = bounds.spacing_mm});
+    }
+    bounds.grid = set.grid;
     // Every shell keeps the same part of its triangles.
     bounds.target_triangles = static_cast<std::size_t>(
         static_cast<double>(options.target_triangles) /
-        static_cast<double>(std::max<std::size_t>(extracted_triangles, 1)) *
-        static_cast<double>(shell.surface.triangles.size()));
+        static_cast<double>(std::max<std::size_t>(extracted_triangles, 1)) * extracted);
     shell.surface = simplify(shell.surface, bounds);
   });
 }

@@ -93,17 +93,28 @@ std::size_t ClosedMesh::valence(std::uint32_t vertex) const {
 }
 
 bool ClosedMesh::are_neighbours(std::uint32_t a, std::uint32_t b) const {
-  bool found = false;
-  for_each_outgoing(a, [&](std::uint32_t h) { found = found || to(h) == b; });
-  return found;
+  const std::uint32_t first = outgoing_[a];
+  if (first == kNone) return false;
+  std::uint32_t h = first;
+  do {
+    if (to(h) == b) return true;
+    h = next(opposite_[h]);
+  } while (h != first);
+  return false;
+}
+
+/// Whether a vertex has as few neighbours as it can.
+bool ClosedMesh::is_least(std::uint32_t vertex) const {
+  const std::uint32_t first = outgoing_[vertex];
+  std::uint32_t h = first;
+  for (std::size_t i = 0; i < kLeastValence; ++i) h = next(opposite_[h]);
+  return h == first;
 }
 
 bool ClosedMesh::can_collapse(std::uint32_t h) const {
   const std::uint32_t u = from(h);
   const std::uint32_t v = to(h);
-  if (valence(apex(h)) <= kLeastValence || valence(apex(opposite(h))) <= kLeastValence) {
-    return false;
-  }
+  if (is_least(apex(h)) || is_least(apex(opposite(h)))) return false;
   std::size_t shared = 0;
   for_each_outgoing(u, [&](std::uint32_t spoke) {
     if (to(spoke) != v && are_neighbours(to(spoke), v)) ++shared;

@@ -88,6 +88,7 @@ class ClosedMesh {
     opposite_[a] = b;
     opposite_[b] = a;
   }
+  bool is_least(std::uint32_t vertex) const;
   void kill_triangle(std::size_t triangle);
   void match_half_edges(std::size_t vertex_count);
   void split_fans();

@@ -1,150 +1,322 @@
 #include "shells/simplify.h"
 
-// OpenMesh prints what it dislikes; nothing here gives it reason to.
-#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
-#include <OpenMesh/Tools/Decimater/DecimaterT.hh>
-#include <OpenMesh/Tools/Decimater/ModQuadricT.hh>
 #include <algorithm>
-#include <cassert>
-#include <cfloat>
+#include <cmath>
+#include <cstdint>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <optional>
+#include <queue>
 #include <vector>
 
 #include "shells/closed_mesh.h"
-#include "shells/collapse_guard.h"
+#include "shells/distance_budget.h"
+#include "shells/grid_fit.h"
+#include "shells/quadric.h"
+#include "shells/star.h"
+#include "shells/star_fit.h"
 
 namespace nacre {
 namespace {
 
-using Mesh = OpenMesh::TriMesh_ArrayKernelT<>;
-using OpenMesh::Decimater::ModQuadricT;
+constexpr double kDamping = 1e-3;  // of a quadric, as a part of its mean eigenvalue
+// Of the quadric's error: shorter edges go first where it says nothing.
+constexpr double kLengthCost = 1e-4;
+// Root mean square of the quadric's error, as a part of the tolerance. What it refuses would mostly
+// fail at the samples, and what would not costs more of the picture than it saves.
+constexpr double kMeanPart = 0.7;
+constexpr int kFitRounds = 2;
+constexpr double kNoStep = 0.01;  // of the spacing: not worth another round
+constexpr double kReach = 0.5;    // likewise: no fit goes farther from where it starts
 
-glm::dvec3 to_glm(const OpenMesh::Vec3f& p) { return {p[0], p[1], p[2]}; }
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
-/// Quadric priority, for collapses that the guard allows.
-///
-/// The guard costs far more than the quadric, and the decimater asks for all edges of a vertex but
-/// uses the best: an edge that is no better than one already allowed is refused unseen.
-template <class MeshT>
-class GuardedQuadricT : public ModQuadricT<MeshT> {
- public:
-  DECIMATING_MODULE(GuardedQuadricT, MeshT, GuardedQuadric);
-
-  explicit GuardedQuadricT(MeshT& mesh) : ModQuadricT<MeshT>(mesh) {}
-
-  void set_guard(CollapseGuard& guard) { guard_ = &guard; }
-
-  float collapse_priority(const CollapseInfo& info) override {
-    // Rounding makes small errors negative, which would mean "never".
-    const float priority = std::max(ModQuadricT<MeshT>::collapse_priority(info), 0.0f);
-    if (info.v0 != asked_vertex_ || collapses_ != asked_after_) {
-      asked_vertex_ = info.v0;
-      asked_after_ = collapses_;
-      best_ = FLT_MAX;
-    }
-    if (priority >= best_) return Base::ILLEGAL_COLLAPSE;
-    describe(info);
-    if (!guard_->allows(move_)) return Base::ILLEGAL_COLLAPSE;
-    best_ = priority;
-    return priority;
-  }
-
-  void preprocess_collapse(const CollapseInfo& info) override {
-    describe(info);
-    guard_->commit(move_);
-    ++collapses_;
-  }
-
- private:
-  void describe(const CollapseInfo& info) {
-    const MeshT& mesh = Base::mesh();
-    move_.before = to_glm(info.p0);
-    move_.after = to_glm(info.p1);
-    move_.kept.clear();
-    move_.removed.clear();
-    for (auto spoke = mesh.cvoh_iter(info.v0); spoke.is_valid(); ++spoke) {
-      const auto across = mesh.next_halfedge_handle(*spoke);
-      const auto a = mesh.from_vertex_handle(across);
-      const auto b = mesh.to_vertex_handle(across);
-      const FanTriangle triangle{to_glm(mesh.point(a)), to_glm(mesh.point(b)),
-                                 static_cast<std::uint32_t>(mesh.face_handle(*spoke).idx())};
-      (a == info.v1 || b == info.v1 ? move_.removed : move_.kept).push_back(triangle);
-    }
-  }
-
-  CollapseGuard* guard_ = nullptr;
-  FanMove move_;
-  typename MeshT::VertexHandle asked_vertex_;
-  std::size_t collapses_ = 0;
-  std::size_t asked_after_ = 0;
-  float best_ = FLT_MAX;
+/// An edge to collapse, at its cost when its ends were as old as the stamp.
+struct Candidate {
+  float cost;
+  std::uint32_t half_edge;
+  std::uint32_t stamp;
 };
 
-Mesh to_openmesh(const TriangleMesh& surface) {
-  // Checks the surface, and gives vertices where sheets touch a number each.
-  const ClosedMesh closed(surface.triangles, surface.positions.size());
-  Mesh mesh;
-  mesh.reserve(closed.vertex_count(), closed.half_edge_count() / 2, closed.triangle_count());
-  for (std::uint32_t v = 0; v < closed.vertex_count(); ++v) {
-    const glm::vec3& p = surface.positions[closed.source(v)];
-    mesh.add_vertex({p.x, p.y, p.z});
+struct Later {
+  bool operator()(const Candidate& a, const Candidate& b) const noexcept {
+    return a.cost != b.cost ? a.cost > b.cost : a.half_edge > b.half_edge;
   }
-  for (std::size_t t = 0; t < closed.triangle_count(); ++t) {
-    const glm::uvec3 corners = closed.triangle(t);
-    const auto vertex = [&](int i) { return mesh.vertex_handle(corners[i]); };
-    mesh.add_face(vertex(0), vertex(1), vertex(2));
+};
+
+/// Where an edge's quadric is least, and what it costs to go there.
+struct Target {
+  glm::dvec3 point;
+  double cost;  ///< squared error times area
+  double area;  ///< that the quadric stands for
+};
+
+class EdgeCollapser {
+ public:
+  EdgeCollapser(const TriangleMesh& surface, const SimplifyOptions& options);
+
+  /// Collapses edges, cheapest first, until none may go.
+  void run();
+  void settle_on_grid();
+  TriangleMesh take() const;
+
+ private:
+  void add_plane(std::size_t face);
+  void measure();
+  Target target_of(std::uint32_t h) const;
+  bool is_hopeless(std::uint32_t h, const Target& target) const;
+  void push(std::uint32_t h);
+  bool is_current(const Candidate& candidate) const;
+  std::uint32_t stamp_of(std::uint32_t h) const {
+    return std::max(changed_[mesh_.from(h)], changed_[mesh_.to(h)]);
   }
-  assert(mesh.n_faces() == closed.triangle_count());
-  return mesh;
+  void try_collapse(std::uint32_t h);
+  void find_allowed();
+  std::optional<glm::dvec3> place(const glm::dvec3& start);
+  std::optional<glm::dvec3> fit_field(const glm::dvec3& start);
+  void commit(std::uint32_t h, const glm::dvec3& p);
+
+  const SimplifyOptions& options_;
+  ClosedMesh mesh_;
+  std::vector<glm::dvec3> positions_;
+  std::vector<Quadric> quadrics_;
+  bool is_bounded_;                     ///< by the field's error
+  std::vector<float> face_error_;       ///< sampled, of each triangle as it is
+  std::vector<float> vertex_error_;     ///< most that a triangle at each vertex has had
+  std::vector<std::uint32_t> changed_;  ///< when each vertex changed last
+  std::uint32_t clock_ = 0;
+  DistanceBudget distance_;
+  std::priority_queue<Candidate, std::vector<Candidate>, Later> queue_;
+  std::size_t triangles_;
+
+  // Of the collapse at hand.
+  Star star_;
+  StarFit fit_;
+  std::vector<double> allowed_;  ///< error of each of the star's triangles
+  std::vector<double> errors_;   ///< likewise, where it was placed
+};
+
+EdgeCollapser::EdgeCollapser(const TriangleMesh& surface, const SimplifyOptions& options)
+    : options_(options),
+      mesh_(surface.triangles, surface.positions.size()),
+      positions_(mesh_.vertex_count()),
+      quadrics_(mesh_.vertex_count()),
+      // A target alone has no bound.
+      is_bounded_(options.field &&
+                  (options.error_tolerance > 0.0 || options.target_triangles == 0)),
+      face_error_(is_bounded_ ? mesh_.triangle_count() : 0, 0.0f),
+      vertex_error_(mesh_.vertex_count(), static_cast<float>(options.error_tolerance)),
+      changed_(mesh_.vertex_count(), 0),
+      distance_(options.tolerance_mm, mesh_.triangle_count()),
+      triangles_(mesh_.triangle_count()),
+      fit_(options.field, options.samples_from_mm) {
+  for (std::uint32_t v = 0; v < positions_.size(); ++v) {
+    positions_[v] = glm::dvec3(surface.positions[mesh_.source(v)]);
+  }
+  for (std::size_t face = 0; face < mesh_.triangle_count(); ++face) add_plane(face);
+  if (is_bounded_) measure();
 }
 
-TriangleMesh from_openmesh(Mesh& mesh) {
-  mesh.garbage_collection();
-  TriangleMesh surface;
-  surface.positions.reserve(mesh.n_vertices());
-  for (const auto vertex : mesh.vertices()) {
-    const OpenMesh::Vec3f& p = mesh.point(vertex);
-    surface.positions.emplace_back(p[0], p[1], p[2]);
+/// Adds a triangle's plane to its corners' quadrics: the field's tangent plane at its centre, or
+/// its own plane where the field has none.
+void EdgeCollapser::add_plane(std::size_t face) {
+  const glm::uvec3 t = mesh_.triangle(face);
+  const glm::dvec3& a = positions_[t.x];
+  const glm::dvec3 twice_area = glm::cross(positions_[t.y] - a, positions_[t.z] - a);
+  const double area = 0.5 * glm::length(twice_area);
+  const glm::dvec3 center = (a + positions_[t.y] + positions_[t.z]) / 3.0;
+  FieldSample at{0.0, glm::dvec3(0.0)};
+  if (options_.field) at = options_.field(center);
+  if (at.gradient == glm::dvec3(0.0) && area > 0.0) {
+    at = {0.0, twice_area / (2.0 * area * options_.spacing_mm)};
   }
-  surface.triangles.reserve(mesh.n_faces());
-  for (const auto face : mesh.faces()) {
-    glm::uvec3 corners;
-    int i = 0;
-    for (auto corner = mesh.cfv_iter(face); corner.is_valid(); ++corner) {
-      corners[i++] = static_cast<std::uint32_t>(corner->idx());
+  Quadric plane;
+  plane.add(at.gradient, at.error - glm::dot(at.gradient, center), area / 3.0);
+  for (const std::uint32_t v : {t.x, t.y, t.z}) quadrics_[v] += plane;
+}
+
+/// Samples the error of every triangle: its inside, its sides and its corners.
+void EdgeCollapser::measure() {
+  std::vector<float> at_vertex(positions_.size());
+  std::transform(positions_.begin(), positions_.end(), at_vertex.begin(), [&](const glm::dvec3& p) {
+    return static_cast<float>(std::abs(options_.field(p).error));
+  });
+  const glm::dmat3& samples = options_.samples_from_mm;
+  for (std::uint32_t h = 0; h < mesh_.half_edge_count(); ++h) {
+    float& error = face_error_[h / 3];
+    const glm::dvec3& a = positions_[mesh_.from(h)];
+    const glm::dvec3& b = positions_[mesh_.to(h)];
+    error = std::max(error, at_vertex[mesh_.from(h)]);
+    if (h % 3 == 0) {
+      const double inner = inner_error(options_.field, samples, a, b, positions_[mesh_.apex(h)]);
+      error = std::max(error, static_cast<float>(inner));
     }
-    surface.triangles.push_back(corners);
+    if (h > mesh_.opposite(h)) continue;
+    const auto side = static_cast<float>(side_error(options_.field, samples, a, b));
+    float& beyond = face_error_[mesh_.opposite(h) / 3];
+    error = std::max(error, side);
+    beyond = std::max(beyond, side);
+  }
+  for (std::uint32_t h = 0; h < mesh_.half_edge_count(); ++h) {
+    float& error = vertex_error_[mesh_.from(h)];
+    error = std::max(error, face_error_[h / 3]);
+  }
+}
+
+Target EdgeCollapser::target_of(std::uint32_t h) const {
+  const std::uint32_t u = mesh_.from(h);
+  const std::uint32_t v = mesh_.to(h);
+  Quadric quadric = quadrics_[u];
+  quadric += quadrics_[v];
+  const glm::dvec3 middle = 0.5 * (positions_[u] + positions_[v]);
+  const glm::dvec3 edge = positions_[v] - positions_[u];
+  const double squared_length = glm::dot(edge, edge);
+  glm::dvec3 step = quadric.step_to_least(middle, kDamping);
+  const double squared_step = glm::dot(step, step);
+  if (squared_step > squared_length) step *= std::sqrt(squared_length / squared_step);
+  const double trace = quadric.diagonal.x + quadric.diagonal.y + quadric.diagonal.z;
+  // Rounding makes small errors negative.
+  const double error = std::max(quadric(middle + step), 0.0);
+  return {middle + step, error + kLengthCost * squared_length * trace, quadric.weight};
+}
+
+/// Whether the quadric's error is too large to be worth sampling the field.
+bool EdgeCollapser::is_hopeless(std::uint32_t h, const Target& target) const {
+  if (!is_bounded_) return false;
+  const double most =
+      kMeanPart * std::max(vertex_error_[mesh_.from(h)], vertex_error_[mesh_.to(h)]);
+  return target.cost > most * most * target.area;
+}
+
+void EdgeCollapser::push(std::uint32_t h) {
+  const Target target = target_of(h);
+  if (is_hopeless(h, target)) return;
+  queue_.push({static_cast<float>(target.cost), std::min(h, mesh_.opposite(h)), stamp_of(h)});
+}
+
+bool EdgeCollapser::is_current(const Candidate& candidate) const {
+  return mesh_.is_alive(candidate.half_edge / 3) &&
+         stamp_of(candidate.half_edge) == candidate.stamp;
+}
+
+/// What each of the star's triangles may be off: the tolerance, or as much as it was.
+void EdgeCollapser::find_allowed() {
+  allowed_.clear();
+  for (const StarTriangle& t : star_.triangles) {
+    allowed_.push_back(is_bounded_ ? std::max(options_.error_tolerance, double{face_error_[t.face]})
+                                   : kUnbounded);
+  }
+}
+
+/// Where the apex follows the field best within what is allowed, from `start`.
+std::optional<glm::dvec3> EdgeCollapser::fit_field(const glm::dvec3& start) {
+  std::optional<glm::dvec3> best;
+  double least = kUnbounded;
+  glm::dvec3 p = start;
+  for (int round = 0; round < kFitRounds; ++round) {
+    if (!keeps_shape(star_, p) || !fit_.sample(star_, p, allowed_)) break;
+    if (fit_.is_within() && fit_.sum_of_squares() < least) {
+      best = p;
+      least = fit_.sum_of_squares();
+      errors_.assign(fit_.triangle_errors().begin(), fit_.triangle_errors().end());
+    }
+    const glm::dvec3 step = fit_.step();
+    p += step;
+    if (!(glm::length(step) > kNoStep * options_.spacing_mm) ||
+        !(glm::distance(p, start) < kReach * options_.spacing_mm)) {
+      break;
+    }
+  }
+  return best;
+}
+
+std::optional<glm::dvec3> EdgeCollapser::place(const glm::dvec3& start) {
+  std::optional<glm::dvec3> placed;
+  if (options_.field) {
+    placed = fit_field(start);
+  } else if (keeps_shape(star_, start)) {
+    placed = start;
+  }
+  return placed && distance_.allows(star_, *placed) ? placed : std::nullopt;
+}
+
+void EdgeCollapser::try_collapse(std::uint32_t h) {
+  if (!mesh_.can_collapse(h)) return;
+  star_of_collapse(mesh_, positions_, h, star_);
+  find_allowed();
+  const Target target = target_of(h);
+  // The ends come last: a cap's rim has to stay in its plane.
+  for (const glm::dvec3& start :
+       {target.point, positions_[mesh_.from(h)], positions_[mesh_.to(h)]}) {
+    if (const auto p = place(start)) {
+      commit(h, *p);
+      return;
+    }
+  }
+}
+
+void EdgeCollapser::commit(std::uint32_t h, const glm::dvec3& p) {
+  distance_.commit(star_, p);
+  if (is_bounded_) {
+    for (std::size_t i = 0; i < star_.triangles.size(); ++i) {
+      face_error_[star_.triangles[i].face] = static_cast<float>(errors_[i]);
+    }
+  }
+  const std::uint32_t u = mesh_.from(h);
+  const std::uint32_t v = mesh_.to(h);
+  vertex_error_[v] = std::max(vertex_error_[u], vertex_error_[v]);
+  mesh_.collapse(h);
+  triangles_ -= 2;
+  positions_[v] = p;
+  quadrics_[v] += quadrics_[u];
+  changed_[v] = ++clock_;
+  mesh_.for_each_outgoing(v, [&](std::uint32_t spoke) { push(spoke); });
+}
+
+void EdgeCollapser::run() {
+  for (std::uint32_t h = 0; h < mesh_.half_edge_count(); ++h) {
+    if (h < mesh_.opposite(h)) push(h);
+  }
+  while (!queue_.empty() && triangles_ > options_.target_triangles) {
+    const Candidate cheapest = queue_.top();
+    queue_.pop();
+    if (is_current(cheapest)) try_collapse(cheapest.half_edge);
+  }
+}
+
+void EdgeCollapser::settle_on_grid() {
+  fit_to_grid(mesh_, options_.field, options_.samples_from_mm, *options_.grid, positions_);
+}
+
+TriangleMesh EdgeCollapser::take() const {
+  TriangleMesh surface;
+  std::vector<std::uint32_t> number(positions_.size());
+  for (std::uint32_t v = 0; v < positions_.size(); ++v) {
+    if (mesh_.outgoing(v) == ClosedMesh::kNone) continue;
+    number[v] = static_cast<std::uint32_t>(surface.positions.size());
+    surface.positions.emplace_back(positions_[v]);
+  }
+  surface.triangles.reserve(triangles_);
+  for (std::size_t face = 0; face < mesh_.triangle_count(); ++face) {
+    if (!mesh_.is_alive(face)) continue;
+    const glm::uvec3 t = mesh_.triangle(face);
+    surface.triangles.emplace_back(number[t.x], number[t.y], number[t.z]);
   }
   return surface;
-}
-
-void add_faces(CollapseGuard& guard, const Mesh& mesh) {
-  for (const auto face : mesh.faces()) {
-    auto corner = mesh.cfv_iter(face);
-    const glm::dvec3 a = to_glm(mesh.point(*corner++));
-    const glm::dvec3 b = to_glm(mesh.point(*corner++));
-    guard.add_face(static_cast<std::uint32_t>(face.idx()), a, b, to_glm(mesh.point(*corner)));
-  }
 }
 
 }  // namespace
 
 TriangleMesh simplify(const TriangleMesh& surface, const SimplifyOptions& options) {
-  const bool is_bounded = options.tolerance_mm > 0.0 || options.error;
+  const bool is_bounded = options.tolerance_mm > 0.0 || options.field;
   const bool is_small = surface.triangles.size() <= options.target_triangles;
   if (surface.triangles.empty() || is_small || (!is_bounded && options.target_triangles == 0)) {
     return surface;
   }
-  Mesh mesh = to_openmesh(surface);
-  CollapseGuard guard(options, mesh.n_faces());
-  add_faces(guard, mesh);
-  OpenMesh::Decimater::DecimaterT<Mesh> decimater(mesh);
-  GuardedQuadricT<Mesh>::Handle quadric;
-  decimater.add(quadric);
-  decimater.module(quadric).set_guard(guard);
-  decimater.module(quadric).unset_max_err();
-  decimater.initialize();
-  decimater.decimate_to_faces(0, options.target_triangles);
-  return from_openmesh(mesh);
+  EdgeCollapser collapser(surface, options);
+  collapser.run();
+  if (options.field && options.grid) collapser.settle_on_grid();
+  return collapser.take();
 }
 
 }  // namespace nacre

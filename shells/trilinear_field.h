@@ -10,6 +10,11 @@
 
 namespace nacre {
 
+struct ValueAndGradient {
+  double value;
+  glm::dvec3 gradient;
+};
+
 /// The trilinear field of a volume's values, at positions in LPS mm relative to its box's centre
 /// (the frame of a shell's surface).
 class TrilinearField {
@@ -24,19 +29,55 @@ class TrilinearField {
     return {p_voxel.x, p_voxel.y, p_voxel.z};
   }
 
+  /// The same for offsets.
+  glm::dmat3 voxel_from_mm() const noexcept { return glm::dmat3(voxel_from_local_); }
+
   /// The value at a position in voxel coordinates; beyond the box that of its nearest point.
   double value(const glm::dvec3& p_voxel) const noexcept { return value_(*this, p_voxel); }
+
+  /// The value and its gradient per voxel, by the cell above where two meet; beyond the box the
+  /// value of its nearest point, with that point's gradient.
+  ValueAndGradient sample(const glm::dvec3& p_voxel) const noexcept {
+    return sample_(*this, p_voxel);
+  }
+
+  /// A gradient per voxel as one per mm. In a border plane the part within the plane only: who
+  /// follows it stays there.
+  glm::dvec3 gradient_per_mm(const glm::dvec3& p_voxel,
+                             const glm::dvec3& per_voxel) const noexcept {
+    const glm::dvec3 gradient = per_voxel * voxel_from_mm();
+    return is_within(p_voxel) ? gradient : along_border(p_voxel, gradient);
+  }
+
+  /// Whether a position lies in a border plane of the box, as near as floats tell.
+  bool is_on_border(const glm::dvec3& p_voxel) const noexcept;
+  bool is_on_border(const glm::dvec3& p_voxel, int axis) const noexcept;
+  /// Whether it lies farther within the box than that.
+  bool is_within(const glm::dvec3& p_voxel) const noexcept {
+    const glm::dvec3& lo = within_.lo;
+    const glm::dvec3& hi = within_.hi;
+    return p_voxel.x > lo.x && p_voxel.y > lo.y && p_voxel.z > lo.z && p_voxel.x < hi.x &&
+           p_voxel.y < hi.y && p_voxel.z < hi.z;
+  }
+  /// Whether it lies farther out than that.
+  bool is_outside(const glm::dvec3& p_voxel) const noexcept;
 
   const VoxelBox& box() const noexcept { return box_; }
 
  private:
+  glm::dvec3 along_border(const glm::dvec3& p_voxel, glm::dvec3 gradient) const noexcept;
   template <class T>
   static double value_of(const TrilinearField& field, const glm::dvec3& p_voxel) noexcept;
+  template <class T>
+  static ValueAndGradient sample_of(const TrilinearField& field,
+                                    const glm::dvec3& p_voxel) noexcept;
 
   const Volume& volume_;
   VoxelBox box_;
+  VoxelBox within_;  ///< the box without what counts as its border
   glm::dmat4 voxel_from_local_;
   double (*value_)(const TrilinearField&, const glm::dvec3&) noexcept;
+  ValueAndGradient (*sample_)(const TrilinearField&, const glm::dvec3&) noexcept;
 };
 
 /// How far off its level a surface is at a point: |phi(p) - t_k|, in emission units.

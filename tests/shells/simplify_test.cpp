@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "shells/shell_checks.h"
 #include "tests/support/analytic_surfaces.h"
+#include "tests/support/dense_error.h"
 
 namespace nacre {
 namespace {
@@ -18,22 +19,18 @@ using testing::torus_surface;
 using testing::turned_inside_out;
 
 constexpr float kRadius = 10.0f;
+constexpr int kDense = 7;  // parts of a triangle's side
 
 double sphere_error(const glm::dvec3& p) { return std::abs(glm::length(p) - double{kRadius}); }
 
-/// Largest error over the triangles' corners, middles of sides and centres.
-double largest_error(const TriangleMesh& mesh, const SurfaceError& error) {
-  double worst = 0.0;
-  for (const glm::uvec3& t : mesh.triangles) {
-    const glm::dvec3 a(mesh.positions[t.x]);
-    const glm::dvec3 b(mesh.positions[t.y]);
-    const glm::dvec3 c(mesh.positions[t.z]);
-    for (const glm::dvec3& p :
-         {a, b, c, (a + b) / 2.0, (b + c) / 2.0, (c + a) / 2.0, (a + b + c) / 3.0}) {
-      worst = std::max(worst, error(p));
-    }
-  }
-  return worst;
+/// Distance from the sphere, signed.
+FieldSample sphere_field(const glm::dvec3& p) {
+  const double r = glm::length(p);
+  return {r - double{kRadius}, r > 0.0 ? p / r : glm::dvec3(0.0)};
+}
+
+double largest_error(const TriangleMesh& mesh, const testing::PointError& error) {
+  return testing::largest_error(mesh, error, kDense);
 }
 
 void expect_sound(const TriangleMesh& mesh, std::int64_t euler) {
@@ -53,7 +50,7 @@ TEST(Simplify, KeepsTheErrorBound) {
   for (const double tolerance : {0.1, 0.5}) {
     SimplifyOptions options;
     options.error_tolerance = tolerance;
-    options.error = sphere_error;
+    options.field = sphere_field;
     const TriangleMesh coarse = simplify(sphere, options);
     expect_sound(coarse, 2);
     EXPECT_LE(largest_error(coarse, sphere_error), tolerance * 1.15) << "between the samples";
@@ -68,7 +65,11 @@ TEST(Simplify, LeavesWhatIsAlreadyWorse) {
   const TriangleMesh sphere = sphere_surface(kRadius, 20);
   SimplifyOptions options;
   options.error_tolerance = 0.04;
-  options.error = [](const glm::dvec3& p) { return sphere_error(p) + (p.x > 8.0 ? 0.3 : 0.0); };
+  options.field = [](const glm::dvec3& p) {
+    FieldSample at = sphere_field(p);
+    if (p.x > 8.0) at.error -= 0.3;
+    return at;
+  };
   const TriangleMesh coarse = simplify(sphere, options);
   expect_sound(coarse, 2);
   EXPECT_LT(coarse.triangles.size(), sphere.triangles.size());

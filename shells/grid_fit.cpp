@@ -1,0 +1,63 @@
+#include "shells/grid_fit.h"
+
+#include <cstdint>
+#include <glm/vector_relational.hpp>
+#include <limits>
+#include <vector>
+
+#include "core/quantization_grid.h"
+#include "shells/star.h"
+#include "shells/star_fit.h"
+
+namespace nacre {
+namespace {
+
+constexpr int kNearby = 27;
+
+/// The i-th of the grid points around one.
+glm::ivec3 neighbour(const glm::ivec3& index, int i) {
+  return index + glm::ivec3(i % 3, i / 3 % 3, i / 9) - 1;
+}
+
+bool is_in_grid(const QuantizationGrid& grid, const glm::ivec3& index) {
+  return glm::all(glm::greaterThanEqual(index, glm::ivec3(0))) &&
+         glm::all(glm::lessThan(index, glm::ivec3(1 << grid.bits)));
+}
+
+/// The best grid point around `here`, where `fit` has sampled the star.
+glm::dvec3 best_point(const QuantizationGrid& grid, const Star& star, const StarFit& fit,
+                      const glm::dvec3& here) {
+  const glm::ivec3 nearest = nearest_index(grid, here);
+  glm::dvec3 best(grid_position(grid, nearest));
+  if (fit.is_pinned()) return best;
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < kNearby; ++i) {
+    const glm::ivec3 index = neighbour(nearest, i);
+    if (!is_in_grid(grid, index)) continue;
+    const glm::dvec3 p(grid_position(grid, index));
+    const double change = fit.change(p - here);
+    if (change >= least || !keeps_shape(star, p)) continue;
+    least = change;
+    best = p;
+  }
+  return best;
+}
+
+}  // namespace
+
+void fit_to_grid(const ClosedMesh& mesh, const SurfaceField& field,
+                 const glm::dmat3& samples_from_mm, const QuantizationGrid& grid,
+                 std::span<glm::dvec3> positions) {
+  Star star;
+  StarFit fit(field, samples_from_mm);
+  std::vector<double> allowed;
+  for (std::uint32_t v = 0; v < positions.size(); ++v) {
+    if (mesh.outgoing(v) == ClosedMesh::kNone) continue;
+    star_of_vertex(mesh, positions, v, star);
+    allowed.assign(star.triangles.size(), std::numeric_limits<double>::infinity());
+    fit.sample(star, positions[v], allowed);
+    positions[v] = best_point(grid, star, fit, positions[v]);
+  }
+}
+
+}  // namespace nacre
