@@ -36,6 +36,7 @@ ordered_json level_list(const ShellSet& set) {
     levels.push_back({{"emission", shell.emission},
                       {"value", shell.value},
                       {"representative", shell.representative},
+                      {"sum_representative", sum_representative(shell)},
                       {"triangles", shell.surface.triangles.size()},
                       {"vertices", shell.surface.positions.size()}});
   }
@@ -88,10 +89,14 @@ void run_build(const BuildFlags& flags) {
   json["extracted_triangles"] = figures.extracted_triangles;
   json["triangles"] = triangles;
   json["bytes"] = bytes.size();
+  json["left_out"] = figures.left_out;
+  json["nesting"] = figures.nesting;
+  if (!figures.placement.is_null()) json["predicted"] = figures.placement;
   json["seconds"] = {{"read", reading},
                      {"emission", figures.emission},
                      {"extract", figures.extract},
                      {"simplify", figures.simplify},
+                     {"crossings", figures.crossings},
                      {"encode", encoding},
                      {"write", writing},
                      {"total", total.lap()}};

@@ -73,6 +73,7 @@ int run_nacre(int argc, char** argv) {
   add_reference_verb(app, status);
   add_compare_verb(app, status);
   add_info_verb(app, status);
+  add_verify_verb(app, status);
   if (argc == 1) {
     fmt::print("{}", app.help());
     return kWrongUse;

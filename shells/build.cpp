@@ -10,8 +10,10 @@
 #include <span>
 
 #include "core/error.h"
+#include "core/quantization_grid.h"
 #include "core/volume_geometry.h"
 #include "extract/marching_cubes.h"
+#include "shells/prune.h"
 #include "shells/quantization.h"
 #include "shells/simplify.h"
 #include "shells/trilinear_field.h"
@@ -57,6 +59,7 @@ ShellSet describe(const Volume& volume, const EmissionMap& emission, const Build
     shell.emission = level.emission;
     shell.value = emission.value_at(level.emission);
     shell.representative = level.representative;
+    shell.sum_representative = level.sum_representative;
     set.shells.push_back(std::move(shell));
   }
   return set;
@@ -134,6 +137,23 @@ void snap_shells(const BuildOptions& options, ShellSet& set, SnapReport& report)
   for (const SnapReport& shell : reports) report += shell;
 }
 
+/// What the surfaces may meet, now that they lie where they will.
+std::vector<StrayTriangles> stray_triangles(const Volume& volume, const EmissionMap& emission,
+                                            const ShellSet& set) {
+  const TrilinearField field(volume);
+  std::vector<StrayTriangles> strays(set.shells.size());
+  for_each_shell(set, {}, "", [&](std::size_t k) {
+    const Shell& shell = set.shells[k];
+    const bool first = k == 0;
+    const bool last = k + 1 == set.shells.size();
+    const double below = first ? -1.0 : 0.5 * (set.shells[k - 1].emission + shell.emission);
+    const double above = last ? 2.0 : 0.5 * (shell.emission + set.shells[k + 1].emission);
+    strays[k] =
+        find_stray_triangles(shell.surface, field, emission, below, above, step_mm(*set.grid));
+  });
+  return strays;
+}
+
 std::size_t triangle_count(const ShellSet& set) {
   std::size_t count = 0;
   for (const Shell& shell : set.shells) count += shell.surface.triangles.size();
@@ -157,15 +177,25 @@ BuiltShells build(const Volume& volume, const EmissionMap& emission, const Build
   report.extract_seconds = extracting.seconds();
   report.extracted_triangles = triangle_count(built.set);
 
+  const Stopwatch pruning;
+  built.set.pruned = prune(built.set, {.min_component_mm3 = options.min_component_mm3,
+                                       .prune_inner = options.prune_inner,
+                                       .progress = options.progress});
+  report.prune_seconds = pruning.seconds();
+
   if (is_simplifying(options)) {
     const Stopwatch simplifying;
     simplify_shells(volume, emission, options, report.extracted_triangles, built.set);
     report.simplify_seconds = simplifying.seconds();
   }
-  volume_done();
   const Stopwatch snapping;
   snap_shells(options, built.set, report.snapped);
   report.snap_seconds = snapping.seconds();
+  const Stopwatch crossing;
+  const std::vector<StrayTriangles> strays = stray_triangles(volume, emission, built.set);
+  volume_done();
+  report.crossings = count_crossings(built.set, strays);
+  report.crossings_seconds = crossing.seconds();
   report.triangles = triangle_count(built.set);
   return built;
 }

@@ -9,6 +9,7 @@
 #include "core/shell_set.h"
 #include "core/volume.h"
 #include "extract/levels.h"
+#include "shells/crossings.h"
 #include "shells/snap.h"
 
 namespace nacre {
@@ -20,7 +21,9 @@ struct BuildOptions {
   double tolerance_mm = 0.0;          ///< likewise, of their distance
   std::size_t target_triangles = 0;   ///< for the set, shared out evenly; 0: none
   int quantization_bits = 0;          ///< 0 chooses, see `choose_grid`
-  ProgressCallback progress = {};     ///< stages "extract", "simplify", "snap"
+  double min_component_mm3 = 0.0;     ///< specks, see `PruneOptions`
+  bool prune_inner = false;           ///< components inside their own shell, see `PruneOptions`
+  ProgressCallback progress = {};     ///< stages "extract", "prune", "simplify", "snap"
 };
 
 /// What a build took, and what it left.
@@ -28,11 +31,14 @@ struct BuildReport {
   std::size_t extracted_triangles = 0;
   std::size_t triangles = 0;
   SnapReport snapped;
-  double step_spacings = 0.0;   ///< of the grid, as a part of the smallest spacing
-  bool is_grid_coarse = false;  ///< see `GridChoice`
+  std::vector<NeighbourCrossings> crossings;  ///< of each shell and the next
+  double step_spacings = 0.0;                 ///< of the grid, as a part of the smallest spacing
+  bool is_grid_coarse = false;                ///< see `GridChoice`
   double extract_seconds = 0.0;
+  double prune_seconds = 0.0;
   double simplify_seconds = 0.0;
   double snap_seconds = 0.0;
+  double crossings_seconds = 0.0;
 };
 
 struct BuiltShells {
@@ -43,8 +49,10 @@ struct BuiltShells {
 /// The shells of a volume: contoured, simplified, snapped to one grid and cleaned, ready to be
 /// written.
 ///
-/// Every shell is closed, oriented, manifold and without degenerate triangles (`snap`), or empty
-/// where nothing reaches its level. The same for any number of threads.
+/// Specks and inner components are left out if the options say so (`ShellSet::pruned`), and the
+/// crossings of neighbours are counted. Every shell is closed, oriented, manifold and without
+/// degenerate triangles (`snap`), or empty where nothing reaches its level. The same for any number
+/// of threads.
 ///
 /// @param emission  rising, see `extract/emission_volume.h` for maps that fall
 /// @throws Error    BadArgument if the levels do not ascend within (0, T(infinity)] or two have the
@@ -52,8 +60,8 @@ struct BuiltShells {
 BuiltShells build_shells(const Volume& volume, const EmissionMap& emission,
                          const BuildOptions& options);
 
-/// The same, freeing the volume as soon as no later step looks at it: the surfaces are snapped and
-/// compressed without it beside them in memory.
+/// The same, freeing the volume as soon as no later step looks at it: the surfaces are compressed
+/// without it beside them in memory.
 BuiltShells build_shells(Volume&& volume, const EmissionMap& emission, const BuildOptions& options);
 
 }  // namespace nacre

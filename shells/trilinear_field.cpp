@@ -9,9 +9,6 @@
 namespace nacre {
 namespace {
 
-// Surfaces are stored in float: a vertex of the border plane is this close to it, in voxels.
-constexpr double kOnBorder = 1e-3;
-
 /// A coordinate's two samples and the weight of the second.
 struct Cell {
   std::size_t lower;
@@ -71,7 +68,8 @@ double LevelError::operator()(const glm::dvec3& p_mm) const noexcept {
   if (error <= 0.0) return -error;
   const VoxelBox& box = field_.box();
   for (int axis = 0; axis < 3; ++axis) {
-    if (p[axis] <= box.lo[axis] + kOnBorder || p[axis] >= box.hi[axis] - kOnBorder) return 0.0;
+    if (p[axis] <= box.lo[axis] + border_voxels_ || p[axis] >= box.hi[axis] - border_voxels_)
+      return 0.0;
   }
   return error;
 }

@@ -38,6 +38,9 @@ class TrilinearField {
   double (*value_)(const TrilinearField&, const glm::dvec3&) noexcept;
 };
 
+/// Surfaces are stored in float: a vertex of the border plane is this close to it, in voxels.
+inline constexpr double kOnBorderVoxels = 1e-3;
+
 /// How far off its level a surface is at a point: |phi(p) - t_k|, in emission units.
 ///
 /// On the volume's border, where shells are capped, a point inside the set is where it belongs: its
@@ -46,8 +49,11 @@ class LevelError {
  public:
   /// @param field, emission  must outlive this
   /// @param level            t_k
-  LevelError(const TrilinearField& field, const EmissionMap& emission, double level)
-      : field_(field), emission_(emission), level_(level) {}
+  /// @param border_voxels    how far from the border plane a point still lies on it: what float
+  ///                         positions are off, more on a grid
+  LevelError(const TrilinearField& field, const EmissionMap& emission, double level,
+             double border_voxels = kOnBorderVoxels)
+      : field_(field), emission_(emission), level_(level), border_voxels_(border_voxels) {}
 
   /// @param p_mm  LPS, relative to the centre of the volume's box
   double operator()(const glm::dvec3& p_mm) const noexcept;
@@ -56,6 +62,7 @@ class LevelError {
   const TrilinearField& field_;
   const EmissionMap& emission_;
   double level_;
+  double border_voxels_;
 };
 
 }  // namespace nacre

@@ -45,7 +45,7 @@ class Command : public ::testing::Test {
 TEST_F(Command, SaysItsVersionAndExplainsEveryVerb) {
   EXPECT_EQ(nacre("--version").output, "nacre " NACRE_VERSION "\n");
   EXPECT_EQ(nacre("-h").status, 0);
-  for (const char* verb : {"phantom", "reference", "render", "compare", "info"}) {
+  for (const char* verb : {"phantom", "reference", "render", "compare", "info", "verify"}) {
     const CommandResult help = nacre(std::string(verb) + " -h");
     EXPECT_EQ(help.status, 0) << verb;
     EXPECT_NE(help.output.find("Example: nacre "), std::string::npos) << verb;
@@ -285,6 +285,71 @@ TEST_F(ShellCommand, DamagedSetsAreStatusThree) {
     }
   }
   expect_refusal("render flipped.glb -o a.png", 3, "damaged");
+}
+
+TEST_F(ShellCommand, VerifyAgreesWithWhatBuildMade) {
+  const CommandResult result = nacre("verify ball.glb --volume ball.nii --json -");
+  ASSERT_EQ(result.status, 0) << result.errors;
+  const json figures = json::parse(result.output);
+  EXPECT_TRUE(figures["kept"].get<bool>());
+  EXPECT_EQ(figures["kind"], "shell set");
+  ASSERT_EQ(figures["shells"].size(), 7u);
+  for (const json& shell : figures["shells"]) {
+    EXPECT_EQ(shell["open_edges"], 0);
+    EXPECT_EQ(shell["off_grid"], 0);
+    EXPECT_EQ(shell["degenerate"], 0);
+    EXPECT_LT(shell["volume"]["max_error"].get<double>(), 0.2);
+  }
+  EXPECT_NE(nacre("verify ball.glb").output.find("all promises kept"), std::string::npos);
+}
+
+TEST_F(ShellCommand, VerifyFindsBrokenPromises) {
+  ASSERT_EQ(nacre("phantom spheres --size 20,18,16 --noise 5 -o other.nii").status, 0);
+  const CommandResult other = nacre("verify ball.glb --volume other.nii");
+  EXPECT_EQ(other.status, 1);
+  EXPECT_NE(other.errors.find("checksum"), std::string::npos) << other.errors;
+  std::string bytes = testing::read_bytes(folder_.path() / "ball.glb");
+  bytes[bytes.size() - 20] ^= 1;
+  folder_.write("flipped.glb", bytes);
+  const CommandResult flipped = nacre("verify flipped.glb --json -");
+  EXPECT_EQ(flipped.status, 1);
+  EXPECT_NE(flipped.errors.find("damaged"), std::string::npos) << flipped.errors;
+  EXPECT_FALSE(json::parse(flipped.output)["kept"].get<bool>());
+  folder_.write("text.glb", "glTF is what this is not");
+  expect_refusal("verify text.glb", 3, "text.glb");
+  expect_refusal("verify none.glb", 3, "none.glb");
+  expect_refusal("verify ball.glb --volume none.nii", 3, "none.nii");
+}
+
+TEST_F(ShellCommand, PruningIsToldAndStored) {
+  const CommandResult result =
+      nacre("build ball.nii --window 0,28 --levels 7 --min-component 1e9 -o none.glb --json -");
+  ASSERT_EQ(result.status, 0) << result.errors;
+  const json figures = json::parse(result.output);
+  EXPECT_EQ(figures["triangles"], 0);
+  ASSERT_EQ(figures["left_out"].size(), 1u);
+  EXPECT_NE(figures["left_out"][0]["what"].get<std::string>().find("specks"), std::string::npos);
+  EXPECT_GT(figures["left_out"][0]["largest_emission"].get<double>(), 0.9);
+  const json info = json::parse(nacre("info none.glb --json -").output);
+  EXPECT_GT(info["pruned"]["specks"]["components"].get<int>(), 0);
+  expect_refusal("build ball.nii --keep-specks --min-component 1 -o a.glb", 2, "keep-specks");
+}
+
+TEST_F(ShellCommand, PlacementIsChosenOrAsked) {
+  const auto placement = [&](const std::string& flags) {
+    const CommandResult result =
+        nacre("build ball.nii --window 0,300 --levels 5 " + flags + " -o p.glb --json -");
+    EXPECT_EQ(result.status, 0) << result.errors;
+    return json::parse(result.output)["placement"].get<std::string>();
+  };
+  EXPECT_EQ(placement(""), "optimal");  // a window ten times as wide as what is in it
+  EXPECT_EQ(placement("--placement optimal"), "optimal");
+  EXPECT_EQ(placement("--placement uniform"), "uniform");
+}
+
+TEST_F(Command, VerifyNeedsTheShellTools) {
+  if (NACRE_HAS_SHELLS) GTEST_SKIP() << "built with the shell tools";
+  expect_refusal("verify a.glb", 4, "shell tools");
 }
 
 TEST_F(Command, EveryFormatGivesTheSamePicture) {
