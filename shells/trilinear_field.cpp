@@ -32,7 +32,8 @@ double mix(double a, double b, double s) noexcept { return a + (b - a) * s; }
 TrilinearField::TrilinearField(const Volume& volume)
     : volume_(volume),
       box_(voxel_box(volume.dims)),
-      value_(visit_scalar_type(volume.type, [](auto zero) { return &value_of<decltype(zero)>; })) {
+      value_(visit_scalar_type(volume.type, [](auto zero) { return &value_of<decltype(zero)>; })),
+      load_(visit_scalar_type(volume.type, [](auto zero) { return &load_from<decltype(zero)>; })) {
   const double handed = handedness(volume.world_from_voxel);
   if (!std::isfinite(handed) || handed == 0.0) {
     throw Error(ErrorCode::BadArgument, "volume: found a singular matrix, expected a regular one");
@@ -60,6 +61,29 @@ double TrilinearField::value_of(const TrilinearField& field, const glm::dvec3& p
   const double near = mix(along_x(y.lower, z.lower), along_x(y.upper, z.lower), y.weight);
   const double far = mix(along_x(y.lower, z.upper), along_x(y.upper, z.upper), y.weight);
   return volume.slope * mix(near, far, z.weight) + volume.intercept;
+}
+
+template <class T>
+void TrilinearField::load_from(const TrilinearField& field, const glm::ivec3& first,
+                               Block& block) noexcept {
+  const Volume& volume = field.volume_;
+  const T* samples = samples_as<T>(volume).data();
+  const auto place = [&](int index, int axis) {
+    return static_cast<std::size_t>(std::clamp<std::int64_t>(index, 0, volume.dims[axis] - 1));
+  };
+  const std::size_t x[4] = {place(first.x, 0), place(first.x + 1, 0), place(first.x + 2, 0),
+                            place(first.x + 3, 0)};
+  const auto nx = static_cast<std::size_t>(volume.dims.x);
+  const auto ny = static_cast<std::size_t>(volume.dims.y);
+  std::size_t i = 0;
+  for (int dz = 0; dz < 4; ++dz) {
+    for (int dy = 0; dy < 4; ++dy) {
+      const T* row = samples + nx * (place(first.y + dy, 1) + ny * place(first.z + dz, 2));
+      for (const std::size_t column : x) {
+        block[i++] = volume.slope * static_cast<double>(row[column]) + volume.intercept;
+      }
+    }
+  }
 }
 
 double LevelError::operator()(const glm::dvec3& p_mm) const noexcept {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
@@ -26,9 +27,17 @@ class TrilinearField {
   /// The value at a position in voxel coordinates; beyond the box that of its nearest point.
   double value(const glm::dvec3& p_voxel) const noexcept { return value_(*this, p_voxel); }
 
+  /// The values of 4 x 4 x 4 samples from `first` on, x fastest; beyond the volume those of its
+  /// nearest sample.
+  using Block = std::array<double, 64>;
+  void load(const glm::ivec3& first, Block& block) const noexcept { load_(*this, first, block); }
+
   const VoxelBox& box() const noexcept { return box_; }
 
  private:
+  template <class T>
+  static void load_from(const TrilinearField& field, const glm::ivec3& first,
+                        Block& block) noexcept;
   template <class T>
   static double value_of(const TrilinearField& field, const glm::dvec3& p_voxel) noexcept;
 
@@ -36,6 +45,7 @@ class TrilinearField {
   VoxelBox box_;
   glm::dmat4 voxel_from_local_;
   double (*value_)(const TrilinearField&, const glm::dvec3&) noexcept;
+  void (*load_)(const TrilinearField&, const glm::ivec3&, Block&) noexcept;
 };
 
 /// Surfaces are stored in float: a vertex of the border plane is this close to it, in voxels.

@@ -91,16 +91,14 @@ double least_distance(const TriangleMesh& from, const TriangleTree& to, const Bo
 }
 
 NeighbourReport compare_neighbours(const ShellSet& set, std::size_t k, std::size_t inner) {
-  const TriangleMesh& a = set.shells[k].surface;
-  const TriangleMesh& b = set.shells[inner].surface;
+  const BorderPlanes border(set);
+  const TriangleMesh a = border.without_caps(set.shells[k].surface);
+  const TriangleMesh b = border.without_caps(set.shells[inner].surface);
   NeighbourReport report{inner, mutual_intersections(a, b), 0.0};
   if (report.intersections.crossing > 0) return report;
-  const BorderPlanes border(set);
-  const TriangleMesh open_a = border.without_caps(a);
-  const TriangleMesh open_b = border.without_caps(b);
   report.gap_mm =
-      least_distance(a, TriangleTree(open_b), border, std::numeric_limits<double>::infinity());
-  report.gap_mm = least_distance(b, TriangleTree(open_a), border, report.gap_mm);
+      least_distance(a, TriangleTree(b), border, std::numeric_limits<double>::infinity());
+  report.gap_mm = least_distance(b, TriangleTree(a), border, report.gap_mm);
   return report;
 }
 

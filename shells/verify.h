@@ -16,12 +16,12 @@
 
 namespace nacre {
 
-/// A shell and the next larger level's that is not empty.
+/// A shell and the next larger level's that is not empty, off the volume's border planes, where all
+/// shells are capped and their caps lie on each other.
 struct NeighbourReport {
   std::size_t inner = 0;  ///< index of the other shell
   MutualIntersections intersections;
-  /// Smallest distance of a vertex of either to the other, mm, off the border planes; 0 where they
-  /// cross.
+  /// Smallest distance of a vertex of either to the other, mm; 0 where they cross.
   double gap_mm = 0.0;
 };
 

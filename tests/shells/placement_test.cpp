@@ -109,7 +109,8 @@ TEST(Placement, LevelsAscendAndShowWhatIsInTheirLayer) {
   for (std::size_t k = 0; k < levels.size(); ++k) {
     EXPECT_GT(levels[k].emission, below);
     EXPECT_GE(levels[k].representative, levels[k].emission);
-    if (k + 1 < levels.size()) EXPECT_LE(levels[k].representative, levels[k + 1].emission);
+    const double next = k + 1 < levels.size() ? levels[k + 1].emission : 1.0;
+    EXPECT_LE(levels[k].representative, next);
     below = levels[k].emission;
   }
 }

@@ -119,7 +119,7 @@ TEST(Verify, FindsATolerancePassed) {
 
 // Oblique: caps snap to a staircase, and still count as caps.
 TEST(Verify, KnowsCapsOfObliqueVolumes) {
-  Volume volume = volume_of<float>({12, 12, 12}, [](auto x, auto, auto) { return 10.0 + x; });
+  Volume volume = volume_of<float>({12, 12, 12}, [](auto x, auto, auto) { return 10 + x; });
   volume.world_from_voxel = glm::rotate(glm::dmat4(1.0), 0.3, glm::normalize(glm::dvec3(1, 2, 3)));
   BuildOptions options;
   options.levels = uniform_levels(2);
