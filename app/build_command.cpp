@@ -24,21 +24,22 @@ struct BuildFlags {
   std::string output;
 };
 
-std::size_t triangle_count(const ShellSet& set) {
+std::size_t triangle_count(const CompressedSet& built) {
   std::size_t triangles = 0;
-  for (const Shell& shell : set.shells) triangles += shell.surface.triangles.size();
+  for (const CompressedShell& shell : built.shells) triangles += shell.triangles;
   return triangles;
 }
 
-ordered_json level_list(const ShellSet& set) {
+ordered_json level_list(const CompressedSet& built) {
   ordered_json levels = ordered_json::array();
-  for (const Shell& shell : set.shells) {
+  for (std::size_t k = 0; k < built.shells.size(); ++k) {
+    const Shell& shell = built.set.shells[k];
     levels.push_back({{"emission", shell.emission},
                       {"value", shell.value},
                       {"representative", shell.representative},
                       {"sum_representative", sum_representative(shell)},
-                      {"triangles", shell.surface.triangles.size()},
-                      {"vertices", shell.surface.positions.size()}});
+                      {"triangles", built.shells[k].triangles},
+                      {"vertices", built.shells[k].vertices}});
   }
   return levels;
 }
@@ -53,41 +54,36 @@ void run_build(const BuildFlags& flags) {
   Reporter reporter(flags.common);
   const ThreadLimit limit(flags.common);
   check_name(flags.output);
+  AtomicFile file(flags.output);  // before the work, which a bad name would waste
   Stopwatch total;
   Stopwatch watch;
   EmissionVolume input = read_emission_volume(flags.volume, reporter);
   const double reading = watch.lap();
   BuildFigures figures;
-  ShellSet set = build_shell_set(flags.shells, std::move(input), reporter, figures);
-  watch.lap();
-  release_free_memory();
-  const std::size_t triangles = triangle_count(set);
-  const ordered_json levels = level_list(set);
+  const CompressedSet built =
+      build_compressed_set(flags.shells, std::move(input),
+                           std::filesystem::path(flags.output).parent_path(), reporter, figures);
+  const ShellSet& set = built.set;
+  const ordered_json levels = level_list(built);
   for (const ordered_json& level : levels) reporter.detail("  " + level.dump());
-  const VolumeFacts volume = set.volume;
-  const std::vector<double> window{set.emission.front().value, set.emission.back().value};
-  const std::size_t shells = set.shells.size();
-  const std::string placement = set.placement;
-  const std::vector<std::byte> bytes =
-      encode_shell_set(std::move(set), {.progress = reporter.progress()});
-  const double encoding = watch.lap();
-  AtomicFile file(flags.output);
+  const std::vector<std::byte> bytes = assemble_shell_set(set, built.shells);
+  watch.lap();
   file.write(bytes);
   file.commit();
   const double writing = watch.lap();
 
-  reporter.say(fmt::format("{} shells, {} triangles, {} bytes -> {}", shells, triangles,
-                           bytes.size(), flags.output));
-  const glm::dvec3 spacing = spacing_mm(volume.world_from_voxel);
+  reporter.say(fmt::format("{} shells, {} triangles, {} bytes -> {}", set.shells.size(),
+                           triangle_count(built), bytes.size(), flags.output));
+  const glm::dvec3 spacing = spacing_mm(set.volume.world_from_voxel);
   ordered_json json;
-  json["volume"] = {{"dims", {volume.dims.x, volume.dims.y, volume.dims.z}},
+  json["volume"] = {{"dims", {set.volume.dims.x, set.volume.dims.y, set.volume.dims.z}},
                     {"spacing_mm", {spacing.x, spacing.y, spacing.z}},
-                    {"type", name(volume.type)}};
-  json["window"] = window;
-  json["placement"] = placement;
+                    {"type", name(set.volume.type)}};
+  json["window"] = {set.emission.front().value, set.emission.back().value};
+  json["placement"] = set.placement;
   json["levels"] = levels;
   json["extracted_triangles"] = figures.extracted_triangles;
-  json["triangles"] = triangles;
+  json["triangles"] = triangle_count(built);
   json["bytes"] = bytes.size();
   json["left_out"] = figures.left_out;
   json["nesting"] = figures.nesting;
@@ -96,8 +92,8 @@ void run_build(const BuildFlags& flags) {
                      {"emission", figures.emission},
                      {"extract", figures.extract},
                      {"simplify", figures.simplify},
+                     {"encode", figures.encode},
                      {"crossings", figures.crossings},
-                     {"encode", encoding},
                      {"write", writing},
                      {"total", total.lap()}};
   json["peak_rss_bytes"] = peak_rss_bytes();

@@ -31,6 +31,7 @@ void add_common_flags(CLI::App& verb, CommonFlags& flags) {
 
 Reporter::Reporter(const CommonFlags& flags)
     : flags_(flags), started_(std::chrono::steady_clock::now()) {
+  if (!flags.json.empty() && flags.json != "-") json_.emplace(flags.json);
   show_progress_ = flags.progress == "always" ||
                    (flags.progress == "auto" && !flags.quiet && isatty(STDERR_FILENO) != 0);
 }
@@ -80,9 +81,8 @@ void Reporter::finish(const nlohmann::ordered_json& figures) {
     fmt::print("{}", text);
     return;
   }
-  AtomicFile file(flags_.json);
-  file.write(text);
-  file.commit();
+  json_->write(text);
+  json_->commit();
 }
 
 double Stopwatch::lap() {

@@ -2,9 +2,11 @@
 
 #include <chrono>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 #include "core/progress.h"
+#include "io/atomic_file.h"
 
 namespace CLI {
 class App;
@@ -28,6 +30,7 @@ void add_common_flags(CLI::App& verb, CommonFlags& flags);
 /// error when that carries the JSON), figures to the JSON file.
 class Reporter {
  public:
+  /// @throws Error  BadArgument if the JSON file cannot be created: before the work, not after it
   explicit Reporter(const CommonFlags& flags);
   ~Reporter();
 
@@ -51,6 +54,7 @@ class Reporter {
   void clear_progress();
 
   CommonFlags flags_;
+  std::optional<AtomicFile> json_;
   bool show_progress_ = false;
   bool progress_on_screen_ = false;
   std::chrono::steady_clock::time_point started_;

@@ -7,11 +7,14 @@
 #include <algorithm>
 #include <memory>
 #include <numbers>
+#include <utility>
 #include <vector>
 
+#include "app/exact_scene.h"
 #include "app/thread_limit.h"
+#include "app/turntable_output.h"
 #include "core/volume_geometry.h"
-#include "reference/exact_picture.h"
+#include "reference/exact_walk.h"
 
 namespace nacre {
 namespace {
@@ -25,8 +28,9 @@ struct Timing {
   double write = 0.0;
 };
 
-ordered_json figures(const ExactFlags& flags, const EmissionVolume& input, const Image& image,
-                     const Timing& timing) {
+ordered_json figures(const ExactFlags& flags, const EmissionVolume& input, const ExactScene& scene,
+                     const TurntableResult& result, const Timing& timing) {
+  const Image& image = result.last.volume;
   const auto [least, greatest] = std::minmax_element(image.pixels.begin(), image.pixels.end());
   ordered_json json;
   json["backend"] = "exact";
@@ -35,6 +39,8 @@ ordered_json figures(const ExactFlags& flags, const EmissionVolume& input, const
   json["window"] = {input.emission.lo(), input.emission.hi()};
   json["picture"] = {
       {"width", image.width}, {"height", image.height}, {"least", *least}, {"greatest", *greatest}};
+  if (result.window) json["display"] = {result.window->lo, result.window->hi};
+  if (scene.shows_shells()) json["levels"] = scene.level_figures();
   json["passes"] = {"walk every ray"};
   json["left_out"] = ordered_json::array();
   json["triangles_drawn"] = 0;
@@ -60,11 +66,12 @@ void run_exact(const ExactFlags& flags) {
   const ThreadLimit limit(flags.common);
   check_output(flags.picture, flags.camera);
   CameraOptions camera = camera_options(flags.camera);
-  const ExactPictureOptions options{picture_mode(flags.picture), slab(flags.camera)};
 
   Timing timing;
   Stopwatch watch;
+  ExactScene scene(flags);
   const EmissionVolume input = read_emission_volume(flags.volume, reporter);
+  scene.set_emission(input.emission);
   timing.load = watch.lap();
   const BoundingSphere sphere = bounding_sphere(input.volume.dims, input.volume.world_from_voxel);
   make_camera(camera, sphere);  // refuses what cannot be, before the work
@@ -73,21 +80,23 @@ void run_exact(const ExactFlags& flags) {
 
   const int views = std::max(flags.camera.turntable, 1);
   const double start = camera.azimuth_rad;
-  Image image;
-  for (int view = 0; view < views; ++view) {
+  timing.frames.resize(static_cast<std::size_t>(views));
+  const auto draw = [&](int view) {
     camera.azimuth_rad = start + 2.0 * std::numbers::pi * view / views;
     watch.lap();
-    image = exact_picture(walk, make_camera(camera, sphere), options, reporter.progress());
-    timing.frames.push_back(watch.lap());
-    if (flags.picture.output.empty()) continue;
-    write_picture(image, flags.picture, numbered_name(flags.picture.output, view));
-    timing.write += watch.lap();
-  }
+    Picture picture = scene.draw(walk, make_camera(camera, sphere), reporter.progress());
+    timing.frames[static_cast<std::size_t>(view)] = watch.lap();
+    return picture;
+  };
+  const TurntableResult result =
+      write_views(flags.picture, {.views = views, .tools = !flags.scene.tools.empty()}, draw);
+  timing.write = result.write_seconds;
+  const Image& image = result.last.volume;
   reporter.say(fmt::format("{} {} of {} x {} pixels, {:.1f} ms a frame (exact){}{}", views,
                            views == 1 ? "picture" : "pictures", image.width, image.height,
                            1e3 * median(timing.frames), flags.picture.output.empty() ? "" : " -> ",
                            flags.picture.output));
-  reporter.finish(figures(flags, input, image, timing));
+  reporter.finish(figures(flags, input, scene, result, timing));
 }
 
 void add_reference_verb(CLI::App& app, int& /*status*/) {
@@ -97,11 +106,17 @@ void add_reference_verb(CLI::App& app, int& /*status*/) {
   verb->add_option("VOLUME", flags->volume.path, "Volume file, or folder of a DICOM series")
       ->required();
   add_exact_flags(*verb, *flags);
+  add_level_flags(*verb, flags->levels);
+  verb->add_flag("--ideal", flags->ideal,
+                 "Show ideal shells at the levels in max and sum: no error of triangles, depth or "
+                 "quantisation")
+      ->group("Shells");
   verb->callback([flags] { run_exact(*flags); });
 }
 
 void add_exact_flags(CLI::App& verb, ExactFlags& flags) {
   add_picture_flags(verb, flags.picture);
+  add_scene_flags(verb, flags.scene);
   add_camera_flags(verb, flags.camera);
   add_volume_reading_flags(verb, flags.volume);
   add_emission_flags(verb, flags.volume);

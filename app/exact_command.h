@@ -2,7 +2,9 @@
 
 #include "app/camera_flags.h"
 #include "app/command.h"
+#include "app/level_flags.h"
 #include "app/picture_output.h"
+#include "app/scene_flags.h"
 #include "app/volume_flags.h"
 
 namespace nacre {
@@ -13,8 +15,12 @@ struct ExactFlags {
   VolumeFlags volume;
   CameraFlags camera;
   PictureFlags picture;
+  SceneFlags scene;
+  LevelFlags levels;   ///< of count, iso and ideal shells
+  bool ideal = false;  ///< ideal shells in place of the volume itself
 };
 
+/// Adds all but the flags of levels, which some verbs share with those of shells, and --ideal.
 void add_exact_flags(CLI::App& verb, ExactFlags& flags);
 
 /// Reads, walks, writes, and says what it took.

@@ -10,10 +10,12 @@
 #include <string>
 
 #include "app/command.h"
+#include "app/tool_info.h"
 #include "app/volume_flags.h"
 #include "core/volume_geometry.h"
 #include "extract/default_window.h"
 #include "io/shell_reader.h"
+#include "io/tool_reader.h"
 
 namespace nacre {
 namespace {
@@ -226,6 +228,10 @@ void run_info(const InfoFlags& flags) {
     reporter.finish(to_json(info));
     return;
   }
+  if (is_tool_name(flags.volume.path)) {
+    run_tool_info(flags.volume.path, reporter);
+    return;
+  }
   const VolumeFile file = read_volume_of(flags.volume, reporter);
   const ValueRange range = value_range(file.volume);
   const Window window = default_window(file.volume);
@@ -236,11 +242,12 @@ void run_info(const InfoFlags& flags) {
 }  // namespace
 
 void add_info_verb(CLI::App& app, int& /*status*/) {
-  CLI::App* verb = app.add_subcommand("info", "What a volume or a shell set holds");
+  CLI::App* verb = app.add_subcommand("info", "What a volume, a tool or a shell set holds");
   verb->footer("Example: nacre info head.nii.gz --json -");
   auto flags = std::make_shared<InfoFlags>();
   verb->add_option("FILE", flags->volume.path,
-                   "Volume file, folder of a DICOM series, or shell set (.glb)")
+                   "Volume file, folder of a DICOM series, tool (.stl, .obj, .ply, .off), or shell "
+                   "set (.glb)")
       ->required();
   add_volume_reading_flags(*verb, flags->volume);
   add_common_flags(*verb, flags->common);

@@ -9,7 +9,6 @@
 #include "app/flag_values.h"
 #include "core/error.h"
 #include "io/picture_file.h"
-#include "io/png_picture.h"
 #include "render/display.h"
 
 namespace nacre {
@@ -34,10 +33,29 @@ std::optional<NumberField> number_field(const std::string& pattern) {
   return NumberField{begin, end + 1, width};
 }
 
-DisplayWindow display_window(const Image& image, const PictureFlags& flags) {
-  if (flags.display.empty()) return default_display_window(image, picture_mode(flags));
-  const auto ends = parse_numbers("--display", flags.display, 2, "LO,HI");
-  return {ends[0], ends[1]};
+ToolBlend tool_blend(const PictureFlags& flags) {
+  if (flags.tool_blend == "max") return ToolBlend::Max;
+  if (flags.tool_blend == "over") return ToolBlend::Over;
+  throw Error(ErrorCode::BadArgument,
+              fmt::format("--tool-blend: found '{}', expected max or over", flags.tool_blend));
+}
+
+/// A turntable's views need names of their own, or a file that holds them all.
+void check_names(const std::string& output, int views) {
+  const bool animated = picture_format(output) == PictureFormat::Apng;
+  const bool numbered = number_field(output).has_value();
+  if (animated && numbered) {
+    throw Error(ErrorCode::BadArgument,
+                fmt::format("{}: found a number in the name, expected none: one .apng holds all "
+                            "views",
+                            output));
+  }
+  if (views > 1 && !animated && !numbered) {
+    throw Error(ErrorCode::BadArgument,
+                fmt::format("{}: found no number in the name, expected %03d for the {} views, or "
+                            "an .apng",
+                            output, views));
+  }
 }
 
 }  // namespace
@@ -46,15 +64,25 @@ void add_picture_flags(CLI::App& verb, PictureFlags& flags) {
   const std::string group = "Picture";
   verb.add_option("-o,--output", flags.output,
                   "Picture: .png as displayed, .tif as measured (float32: emission for max, "
-                  "emission * mm for sum)")
+                  "emission * mm for sum; without tools). With --turntable: name%03d.png, or one "
+                  "animated .apng")
       ->group(group);
-  verb.add_option("--mode", flags.mode, "max or sum")->capture_default_str()->group(group);
+  verb.add_option("--mode", flags.mode,
+                  "max (the largest emission on each ray), sum (the emission integral), count "
+                  "(each shell crossed adds its brightness) or iso (lit shells)")
+      ->capture_default_str()
+      ->group(group);
   verb.add_option(
           "--display", flags.display,
-          "LO,HI shown as black and as full brightness in a PNG (default: 0,1 for max; 0 to "
-          "the largest pixel for sum)")
+          "LO,HI shown as black and as full brightness in a PNG (default: 0,1 for max and iso; 0 "
+          "to the largest pixel, of all views, for sum and count)")
       ->group(group);
-  verb.add_option("--colormap", flags.color_map, "gray, gray-inverted or hot")
+  verb.add_option("--colormap", flags.color_map, color_map_list())
+      ->capture_default_str()
+      ->group(group);
+  verb.add_option("--tool-blend", flags.tool_blend,
+                  "How a PNG joins tools and what is seen in front of them: max (the brighter of "
+                  "each channel; added for sum and count) or over (what is in front replaces them)")
       ->capture_default_str()
       ->group(group);
   verb.add_option("--bits", flags.bits, "Bits a channel in a PNG")
@@ -66,25 +94,39 @@ void add_picture_flags(CLI::App& verb, PictureFlags& flags) {
 PictureMode picture_mode(const PictureFlags& flags) {
   if (flags.mode == "max") return PictureMode::Max;
   if (flags.mode == "sum") return PictureMode::Sum;
+  if (flags.mode == "count") return PictureMode::Count;
+  if (flags.mode == "iso") return PictureMode::Iso;
   throw Error(ErrorCode::BadArgument,
-              fmt::format("--mode: found '{}', expected max or sum", flags.mode));
+              fmt::format("--mode: found '{}', expected max, sum, count or iso", flags.mode));
+}
+
+std::optional<DisplayWindow> window_known_before(const PictureFlags& flags) {
+  const PictureMode mode = picture_mode(flags);
+  if (!flags.display.empty()) {
+    const auto ends = parse_numbers("--display", flags.display, 2, "LO,HI");
+    return DisplayWindow{ends[0], ends[1]};
+  }
+  if (mode == PictureMode::Sum || mode == PictureMode::Count) return std::nullopt;
+  return default_display_window(0.0F, mode);
+}
+
+DisplayOptions display_options(const PictureFlags& flags, const DisplayWindow& window) {
+  return {.window = window,
+          .color_map = flags.color_map,
+          .mode = picture_mode(flags),
+          .blend = tool_blend(flags)};
 }
 
 void check_output(const PictureFlags& flags, const CameraFlags& camera) {
-  if (flags.output.empty()) {
-    if (camera.turntable > 0) return;
+  // Shown once on a single pixel, a bad window or colour map is found before the work.
+  const DisplayWindow window = window_known_before(flags).value_or(DisplayWindow{});
+  display_picture(Picture{make_image(1, 1), std::nullopt}, display_options(flags, window));
+  if (!flags.output.empty()) {
+    check_names(flags.output, camera.turntable);
+  } else if (camera.turntable == 0) {
     throw Error(ErrorCode::BadArgument,
                 "no output, expected -o with a name ending in .png or .tif");
   }
-  picture_format(flags.output);
-  if (camera.turntable > 1 && !number_field(flags.output)) {
-    throw Error(ErrorCode::BadArgument,
-                fmt::format("{}: found no number in the name, expected %03d for the {} views",
-                            flags.output, camera.turntable));
-  }
-  // Shown once on a single pixel, a bad window or colour map is found before the work.
-  const Image pixel = make_image(1, 1);
-  display_picture(pixel, display_window(pixel, flags), flags.color_map);
 }
 
 std::string numbered_name(const std::string& pattern, int number) {
@@ -92,16 +134,6 @@ std::string numbered_name(const std::string& pattern, int number) {
   if (!field) return pattern;
   return pattern.substr(0, field->begin) + fmt::format("{:0{}}", number, field->width) +
          pattern.substr(field->end);
-}
-
-void write_picture(const Image& image, const PictureFlags& flags, const std::string& path) {
-  const PictureMode mode = picture_mode(flags);
-  if (picture_format(path) == PictureFormat::Tiff) {
-    write_measured_picture(image, mode, path);
-    return;
-  }
-  write_png(display_picture(image, display_window(image, flags), flags.color_map), path,
-            flags.bits);
 }
 
 }  // namespace nacre

@@ -21,6 +21,12 @@ struct RenderFlags {
   bool list_backends = false;
 };
 
+/// Whether the mode is one of shells only, which no exact walk has.
+bool shows_shells(const RenderFlags& flags) {
+  const PictureMode mode = picture_mode(flags.exact.picture);
+  return mode == PictureMode::Count || mode == PictureMode::Iso;
+}
+
 void run_render(const RenderFlags& flags) {
   if (flags.list_backends) {
     say_backends();
@@ -37,11 +43,13 @@ void run_render(const RenderFlags& flags) {
           fmt::format("{}: found a shell set, expected a volume for --method exact", input));
     }
     run_shell_file(flags.exact, flags.draw);
-  } else if (flags.method == "shells") {
+  } else if (flags.method == "shells" || (flags.method == "auto" && shows_shells(flags))) {
     run_shells_of_volume(flags.exact, flags.draw, flags.shells);
   } else {
     // For one picture of a volume at hand the exact walk is done before shells are built.
-    run_exact(flags.exact);
+    ExactFlags exact = flags.exact;
+    exact.levels = flags.shells;
+    run_exact(exact);
   }
 }
 
@@ -55,7 +63,7 @@ void add_render_verb(CLI::App& app, int& /*status*/) {
                    "Shell set (.glb), volume file, or folder of a DICOM series");
   verb->add_option("--method", flags->method,
                    "How a volume is shown: shells built in memory, or the exact walk of its rays "
-                   "(auto: exact)")
+                   "(auto: exact for max and sum, shells for count and iso)")
       ->check(CLI::IsMember({"auto", "shells", "exact"}))
       ->capture_default_str();
   verb->add_flag("--list-backends", flags->list_backends,

@@ -1,19 +1,20 @@
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/command.h"
+#include "app/level_flags.h"
 #include "app/volume_flags.h"
 #include "core/shell_set.h"
+#include "io/shell_writer.h"
 
 namespace nacre {
 
 /// Which shells to make of a volume, as flags say it.
-struct ShellFlags {
-  std::string levels = "24";  ///< a count, or emissions "t1,t2,..."
-  std::string level_values;   ///< "v1,v2,..." in the volume's values
-  std::string placement = "auto";
+struct ShellFlags : LevelFlags {
   double tolerance = 0.0;               ///< emission; 0: none
   double tolerance_mm = 0.0;            ///< mm; 0: none
   int quantization = 0;                 ///< bits; 0: chosen
@@ -22,15 +23,16 @@ struct ShellFlags {
   std::string purpose = "all";  ///< all or max: which pictures the set must serve
 };
 
-/// Adds --levels, --level-values, --placement, --tolerance, --tolerance-mm, --quantization,
-/// --min-component, --keep-specks and --purpose.
+/// Adds the flags of levels, --tolerance, --tolerance-mm, --quantization, --min-component,
+/// --keep-specks and --purpose.
 void add_shell_flags(CLI::App& verb, ShellFlags& flags);
 
 /// What building took, in seconds, and how many triangles there were before simplification.
 struct BuildFigures {
   double emission = 0.0;  ///< placing levels
   double extract = 0.0;
-  double simplify = 0.0;  ///< and pruning and snapping
+  double simplify = 0.0;
+  double encode = 0.0;
   double crossings = 0.0;
   std::size_t extracted_triangles = 0;
   nlohmann::ordered_json left_out = nlohmann::ordered_json::array();  ///< {"what", "why", ...} each
@@ -43,5 +45,17 @@ struct BuildFigures {
 ///                shell tools
 ShellSet build_shell_set(const ShellFlags& flags, EmissionVolume input, Reporter& reporter,
                          BuildFigures& figures);
+
+/// A set whose surfaces are compressed already.
+struct CompressedSet {
+  ShellSet set;  ///< without surfaces
+  std::vector<CompressedShell> shells;
+};
+
+/// The same, each shell compressed when it is finished: never all of them in memory at once.
+/// @param scratch_folder  where surfaces wait for their turn, see `BuildOptions`
+CompressedSet build_compressed_set(const ShellFlags& flags, EmissionVolume input,
+                                   const std::filesystem::path& scratch_folder, Reporter& reporter,
+                                   BuildFigures& figures);
 
 }  // namespace nacre

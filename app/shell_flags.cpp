@@ -1,31 +1,38 @@
+#include <fmt/core.h>
+
 #include <CLI/CLI.hpp>
+#include <cmath>
+#include <limits>
 
 #include "app/shell_building.h"
 
 namespace nacre {
+namespace {
+
+/// CLI11's own ranges let NaN through and spell out the largest double.
+CLI::Validator finite_from_zero(double most, const char* expected) {
+  return CLI::Validator(
+      [most, expected](const std::string& text) {
+        double number = std::numeric_limits<double>::quiet_NaN();
+        const bool is_number = CLI::detail::lexical_cast(text, number);
+        const bool is_good = is_number && number >= 0.0 && number <= most;
+        return is_good ? std::string() : fmt::format("found {}, expected {}", text, expected);
+      },
+      "FLOAT");
+}
+
+}  // namespace
 
 void add_shell_flags(CLI::App& verb, ShellFlags& flags) {
   const std::string group = "Shells";
-  auto* levels = verb.add_option("--levels", flags.levels,
-                                 "N levels, or emissions t1,t2,... from above 0 to 1")
-                     ->capture_default_str()
-                     ->group(group);
-  verb.add_option("--level-values", flags.level_values, "v1,v2,... in the volume's values")
-      ->excludes(levels)
-      ->group(group);
-  verb.add_option("--placement", flags.placement,
-                  "Where N levels are put: for the least error of maximum projections over "
-                  "directions (optimal), evenly, or optimal where that gains more than 1 dB (auto)")
-      ->check(CLI::IsMember({"auto", "optimal", "uniform"}))
-      ->capture_default_str()
-      ->group(group);
+  add_level_flags(verb, flags);
   verb.add_option("--tolerance", flags.tolerance,
                   "Emission error a simplified surface may have (0: no simplification)")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(finite_from_zero(1.0, "an emission from 0 to 1"))
       ->group(group);
   verb.add_option("--tolerance-mm", flags.tolerance_mm,
                   "MM a simplified surface may be off the extracted one (0: no simplification)")
-      ->check(CLI::NonNegativeNumber)
+      ->check(finite_from_zero(std::numeric_limits<double>::max(), "millimetres, 0 or more"))
       ->group(group);
   verb.add_option("--quantization", flags.quantization,
                   "Bits of a coordinate (default: the fewest from 12 whose step is 1/64 of the "
@@ -33,9 +40,9 @@ void add_shell_flags(CLI::App& verb, ShellFlags& flags) {
       ->check(CLI::Range(1, 30))
       ->group(group);
   auto* least = verb.add_option("--min-component", flags.min_component,
-                                "MM3: closed components of less volume are left out (default: a "
-                                "quarter of a voxel)")
-                    ->check(CLI::NonNegativeNumber)
+                                "MM3: closed components of less volume are left out (default: "
+                                "an eighth of a voxel)")
+                    ->check(finite_from_zero(1e30, "a volume in mm3"))
                     ->group(group);
   verb.add_flag("--keep-specks", flags.keep_specks, "Leave out no component for its size")
       ->excludes(least)

@@ -6,11 +6,16 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <numbers>
+#include <optional>
 #include <set>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "app/flag_values.h"
+#include "app/pruned_shells.h"
 #include "app/thread_limit.h"
+#include "app/turntable_output.h"
 #include "core/error.h"
 #include "core/volume_geometry.h"
 #include "io/shell_reader.h"
@@ -60,25 +65,19 @@ std::vector<std::uint32_t> hidden_shells(const DrawFlags& draw, std::size_t shel
   return hidden;
 }
 
-Backend backend_of(const DrawFlags& draw) {
-  if (const auto found = backend(draw.backend)) return *found;
+/// What a flag names, if it names anything.
+template <class Value>
+Value value_of(std::string_view flag, const std::optional<Value>& value, std::string_view found,
+               std::string_view expected) {
+  if (value) return *value;
   throw Error(ErrorCode::BadArgument,
-              fmt::format("--backend: found '{}', expected auto, egl or osmesa", draw.backend));
+              fmt::format("{}: found '{}', expected {}", flag, found, expected));
 }
 
 Views views_of(const ExactFlags& flags, const DrawFlags& draw, const VolumeFacts& volume,
                std::size_t shells) {
   Views views;
-  views.options.mode = picture_mode(flags.picture);
-  views.options.slab = slab(flags.camera);
-  views.options.hidden = hidden_shells(draw, shells);
-  const auto depth = depth_format(draw.depth_buffer);
-  if (!depth) {
-    throw Error(
-        ErrorCode::BadArgument,
-        fmt::format("--depth-buffer: found '{}', expected 16, 24 or 32f", draw.depth_buffer));
-  }
-  views.options.depth = *depth;
+  views.options = render_options(flags, draw, shells);
   const BoundingSphere sphere = bounding_sphere(volume.dims, volume.world_from_voxel);
   CameraOptions camera = camera_options(flags.camera);
   const double start = camera.azimuth_rad;
@@ -99,21 +98,24 @@ std::vector<std::uint32_t> drawn_in_any(const std::vector<Plan>& plans) {
   return {drawn.begin(), drawn.end()};
 }
 
-void say_plan(const Plan& plan, Reporter& reporter) {
-  for (const Pass& pass : plan.passes) reporter.say("draws    " + describe(pass));
-  if (plan.passes.empty()) reporter.say("draws    nothing: the picture is black");
-  for (const LeftOut& left : plan.left_out) {
-    reporter.say(fmt::format("left out {}: {}", left.what, left.why));
-  }
+/// Copies to the context what any of the plans needs.
+void upload(GlRenderer& renderer, const ShellSet& set, const SceneFacts& facts,
+            std::span<const Tool> tools, const std::vector<Plan>& plans) {
+  const bool normals =
+      std::any_of(plans.begin(), plans.end(), [](const Plan& plan) { return plan.normals; });
+  renderer.upload(set, facts, drawn_in_any(plans), {.normals = normals});
+  renderer.upload_tools(tools);
 }
 
 ordered_json figures_of(const GlRenderer& renderer, const ExactFlags& flags, const Plan& plan,
-                        const Image& image, const Timing& timing) {
+                        const TurntableResult& result, const Timing& timing) {
+  const Image& image = result.last.volume;
   ordered_json json;
   json["backend"] = name(renderer.info().backend);
   json["renderer"] = renderer.info().renderer;
   json["mode"] = flags.picture.mode;
   json["picture"] = {{"width", image.width}, {"height", image.height}};
+  if (result.window) json["display"] = {result.window->lo, result.window->hi};
   json["passes"] = ordered_json::array();
   for (const Pass& pass : plan.passes) json["passes"].push_back(describe(pass));
   json["left_out"] = ordered_json::array();
@@ -136,17 +138,18 @@ void draw_views(GlRenderer& renderer, const ExactFlags& flags, const DrawFlags& 
                 const Views& views, const std::vector<Plan>& plans, Timing timing,
                 Reporter& reporter) {
   if (draw.explain) say_plan(plans.front(), reporter);
-  Stopwatch watch;
-  Image image;
-  for (std::size_t view = 0; view < plans.size(); ++view) {
-    image = renderer.render(views.cameras[view], plans[view]);
-    timing.frames.push_back(renderer.last_frame().seconds);
-    if (flags.picture.output.empty()) continue;
-    watch.lap();
-    write_picture(image, flags.picture,
-                  numbered_name(flags.picture.output, static_cast<int>(view)));
-    timing.write += watch.lap();
-  }
+  timing.frames.resize(plans.size());
+  const auto draw_view = [&](int number) {
+    const auto view = static_cast<std::size_t>(number);
+    Picture picture = renderer.render(views.cameras[view], plans[view]);
+    timing.frames[view] = renderer.last_frame().seconds;
+    return picture;
+  };
+  const TurntableResult result = write_views(
+      flags.picture, {.views = static_cast<int>(plans.size()), .tools = !flags.scene.tools.empty()},
+      draw_view);
+  timing.write = result.write_seconds;
+  const Image& image = result.last.volume;
   std::vector<double> sorted = timing.frames;
   std::sort(sorted.begin(), sorted.end());
   reporter.say(fmt::format("{} {} of {} x {} pixels, {:.1f} ms a frame, {} triangles ({}: {}){}{}",
@@ -155,7 +158,7 @@ void draw_views(GlRenderer& renderer, const ExactFlags& flags, const DrawFlags& 
                            renderer.last_frame().triangles, name(renderer.info().backend),
                            renderer.info().renderer, flags.picture.output.empty() ? "" : " -> ",
                            flags.picture.output));
-  reporter.finish(figures_of(renderer, flags, plans.back(), image, timing));
+  reporter.finish(figures_of(renderer, flags, plans.back(), result, timing));
 }
 
 std::vector<Plan> plans_for(const SceneFacts& facts, const Views& views,
@@ -167,16 +170,18 @@ std::vector<Plan> plans_for(const SceneFacts& facts, const Views& views,
   return plans;
 }
 
-/// A file's facts, without decoding it.
-SceneFacts facts_of(const ShellFileInfo& info) {
+/// A file's facts, without decoding it, and those of the tools.
+SceneFacts facts_of(const ShellFileInfo& info, std::span<const Tool> tools) {
   SceneFacts facts;
   facts.center_mm = info.set.center_mm;
   for (std::size_t i = 0; i < info.levels.size(); ++i) {
     const ShellFileLevel& level = info.levels[i];
     facts.shells.push_back({info.set.shells[i].representative,
                             level.triangles,
-                            {glm::dvec3(level.lo_mm), glm::dvec3(level.hi_mm)}});
+                            {glm::dvec3(level.lo_mm), glm::dvec3(level.hi_mm)},
+                            info.set.shells[i].sum_representative});
   }
+  for (const Tool& tool : tools) facts.tools.push_back(tool_facts(tool, facts.center_mm));
   return facts;
 }
 
@@ -190,6 +195,14 @@ void add_draw_flags(CLI::App& verb, DrawFlags& flags) {
   verb.add_option("--depth-buffer", flags.depth_buffer, "16, 24 or 32f")
       ->capture_default_str()
       ->group(group);
+  verb.add_option("--target", flags.target, "8, 16f or 32f: where sums and counts add up")
+      ->capture_default_str()
+      ->group(group);
+  verb.add_option("--occlusion", flags.occlusion,
+                  "How tools hide what is behind them in a maximum: passes, texture, or auto, the "
+                  "cheaper one that is exact")
+      ->capture_default_str()
+      ->group(group);
   auto* hide = verb.add_option("--hide", flags.hide,
                                "K,K,...: shells not shown, counted from 1, outermost first")
                    ->group(group);
@@ -200,6 +213,34 @@ void add_draw_flags(CLI::App& verb, DrawFlags& flags) {
       ->group(group);
 }
 
+Backend backend_of(const DrawFlags& draw) {
+  if (const auto found = backend(draw.backend)) return *found;
+  throw Error(ErrorCode::BadArgument,
+              fmt::format("--backend: found '{}', expected auto, egl or osmesa", draw.backend));
+}
+
+RenderOptions render_options(const ExactFlags& flags, const DrawFlags& draw, std::size_t shells) {
+  RenderOptions options;
+  options.mode = picture_mode(flags.picture);
+  options.slab = slab(flags.camera);
+  options.cue = depth_cue(flags.scene);
+  options.hidden = hidden_shells(draw, shells);
+  options.depth = value_of("--depth-buffer", depth_format(draw.depth_buffer), draw.depth_buffer,
+                           "16, 24 or 32f");
+  options.target = value_of("--target", target_format(draw.target), draw.target, "8, 16f or 32f");
+  options.occlusion =
+      value_of("--occlusion", occlusion(draw.occlusion), draw.occlusion, "auto, passes or texture");
+  return options;
+}
+
+void say_plan(const Plan& plan, Reporter& reporter) {
+  for (const Pass& pass : plan.passes) reporter.say("draws    " + describe(pass));
+  if (plan.passes.empty()) reporter.say("draws    nothing: the picture is black");
+  for (const LeftOut& left : plan.left_out) {
+    reporter.say(fmt::format("left out {}: {}", left.what, left.why));
+  }
+}
+
 void run_shell_file(const ExactFlags& flags, const DrawFlags& draw) {
   Reporter reporter(flags.common);
   const ThreadLimit limit(flags.common);
@@ -207,12 +248,14 @@ void run_shell_file(const ExactFlags& flags, const DrawFlags& draw) {
   const Backend wanted_backend = backend_of(draw);
   Timing timing;
   Stopwatch watch;
+  const std::vector<Tool> tools = read_tools(flags.scene);
   const ShellFileInfo info = read_shell_file_info(flags.volume.path);
   const Views views = views_of(flags, draw, info.set.volume, info.levels.size());
+  check_pruning(info.set, views.options, views.cameras, reporter);
   timing.load = watch.lap();
   GlRenderer renderer(wanted_backend);
   timing.upload = watch.lap();
-  const SceneFacts facts = facts_of(info);
+  const SceneFacts facts = facts_of(info, tools);
   const std::vector<Plan> plans = plans_for(facts, views, renderer);
   const std::vector<std::uint32_t> drawn = drawn_in_any(plans);
   timing.plan = watch.lap();
@@ -222,7 +265,7 @@ void run_shell_file(const ExactFlags& flags, const DrawFlags& draw) {
            [&](std::size_t shell) { return std::binary_search(drawn.begin(), drawn.end(), shell); },
        .progress = reporter.progress()});
   timing.load += watch.lap();
-  renderer.upload(set, facts, drawn);
+  upload(renderer, set, facts, tools, plans);
   timing.upload += watch.lap();
   draw_views(renderer, flags, draw, views, plans, timing, reporter);
 }
@@ -235,6 +278,7 @@ void run_shells_of_volume(const ExactFlags& flags, const DrawFlags& draw,
   const Backend wanted_backend = backend_of(draw);
   Timing timing;
   Stopwatch watch;
+  const std::vector<Tool> tools = read_tools(flags.scene);
   EmissionVolume input = read_emission_volume(flags.volume, reporter);
   BuildFigures figures;
   const ShellSet set = build_shell_set(shells, std::move(input), reporter, figures);
@@ -242,10 +286,10 @@ void run_shells_of_volume(const ExactFlags& flags, const DrawFlags& draw,
   timing.load = watch.lap();
   GlRenderer renderer(wanted_backend);
   timing.upload = watch.lap();
-  const SceneFacts facts = scene_facts(set);
+  const SceneFacts facts = scene_facts(set, tools);
   const std::vector<Plan> plans = plans_for(facts, views, renderer);
   timing.plan = watch.lap();
-  renderer.upload(set, facts, drawn_in_any(plans));
+  upload(renderer, set, facts, tools, plans);
   timing.upload += watch.lap();
   draw_views(renderer, flags, draw, views, plans, timing, reporter);
 }

@@ -1,9 +1,13 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 #include "app/exact_command.h"
 #include "app/shell_building.h"
+#include "render/gl/backends.h"
+#include "render/plan.h"
+#include "render/render_options.h"
 
 namespace nacre {
 
@@ -11,13 +15,22 @@ namespace nacre {
 struct DrawFlags {
   std::string backend = "auto";
   std::string depth_buffer = "32f";
+  std::string target = "32f";
+  std::string occlusion = "auto";
   std::string hide;  ///< shells, counted from 1, outermost first
   std::string only;
   bool explain = false;
 };
 
-/// Adds --backend, --depth-buffer, --hide, --only and --explain.
+/// Adds --backend, --depth-buffer, --target, --occlusion, --hide, --only and --explain.
 void add_draw_flags(CLI::App& verb, DrawFlags& flags);
+
+/// @throws Error  BadArgument for what the flags cannot mean
+Backend backend_of(const DrawFlags& draw);
+RenderOptions render_options(const ExactFlags& flags, const DrawFlags& draw, std::size_t shells);
+
+/// Says what is drawn and what is left out, and why: --explain.
+void say_plan(const Plan& plan, Reporter& reporter);
 
 /// Draws a shell set file: plans, decodes and uploads what the plan draws, renders.
 void run_shell_file(const ExactFlags& flags, const DrawFlags& draw);

@@ -1,4 +1,5 @@
 // What a build without the shell tools says where one with them works.
+#include "app/error_explaining.h"
 #include "app/shell_building.h"
 #include "app/verify_command.h"
 #include "core/error.h"
@@ -16,6 +17,17 @@ namespace {
 
 ShellSet build_shell_set(const ShellFlags& /*flags*/, EmissionVolume /*input*/,
                          Reporter& /*reporter*/, BuildFigures& /*figures*/) {
+  refuse();
+}
+
+CompressedSet build_compressed_set(const ShellFlags& /*flags*/, EmissionVolume /*input*/,
+                                   const std::filesystem::path& /*scratch_folder*/,
+                                   Reporter& /*reporter*/, BuildFigures& /*figures*/) {
+  refuse();
+}
+
+ExplainedError explain_error(const ExplainFlags& /*flags*/, std::optional<Image> /*picture*/,
+                             Reporter& /*reporter*/) {
   refuse();
 }
 

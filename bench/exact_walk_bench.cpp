@@ -1,6 +1,7 @@
 #include <benchmark/benchmark.h>
 
 #include <numbers>
+#include <vector>
 
 #include "core/volume_geometry.h"
 #include "datasets/phantom.h"
@@ -22,27 +23,96 @@ EmissionMap window_of(const benchmark::State& state) {
   return EmissionMap::window(static_cast<double>(state.range(0)), 1400.0);
 }
 
-void exact_frame(benchmark::State& state, PictureMode mode) {
-  const ExactWalk walk(angiogram(), window_of(state));
+constexpr DepthCue kNone{};
+constexpr DepthCue kNearer{0.8, 0.2, 0.0};    // brighter towards the eye
+constexpr DepthCue kFarther{-0.8, 1.0, 0.0};  // the other way
+
+/// N uniform levels of a window.
+std::vector<ShownLevel> levels_of(const EmissionMap& emission, int count) {
+  std::vector<ShownLevel> levels;
+  for (int k = 1; k <= count; ++k) {
+    levels.push_back({emission.value_at((k - 0.5) / count), static_cast<double>(k) / count});
+  }
+  return levels;
+}
+
+template <class Draw>
+void time_frames(benchmark::State& state, const Draw& draw) {
   const BoundingSphere sphere = bounding_sphere(angiogram().dims, angiogram().world_from_voxel);
   int view = 0;
   for (auto _ : state) {
     const double azimuth = 2.0 * std::numbers::pi * (view++ % kViews) / kViews;
-    const Camera camera = make_camera({.size = {kSide, kSide}, .azimuth_rad = azimuth}, sphere);
-    benchmark::DoNotOptimize(exact_picture(walk, camera, {.mode = mode}));
+    benchmark::DoNotOptimize(
+        draw(make_camera({.size = {kSide, kSide}, .azimuth_rad = azimuth}, sphere)));
   }
   state.SetItemsProcessed(state.iterations() * kSide * kSide);  // rays a second
 }
-BENCHMARK_CAPTURE(exact_frame, max, PictureMode::Max)
+
+void exact_frame(benchmark::State& state, PictureMode mode, DepthCue cue) {
+  const ExactWalk walk(angiogram(), window_of(state));
+  time_frames(state, [&](const Camera& camera) {
+    return exact_picture(walk, camera, {.mode = mode, .cue = cue});
+  });
+}
+BENCHMARK_CAPTURE(exact_frame, max, PictureMode::Max, kNone)
     ->ArgName("lo")
     ->Arg(400)
     ->Arg(100)
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
-BENCHMARK_CAPTURE(exact_frame, sum, PictureMode::Sum)
+BENCHMARK_CAPTURE(exact_frame, max_nearer, PictureMode::Max, kNearer)
     ->ArgName("lo")
     ->Arg(400)
     ->Arg(100)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+BENCHMARK_CAPTURE(exact_frame, max_farther, PictureMode::Max, kFarther)
+    ->ArgName("lo")
+    ->Arg(400)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+BENCHMARK_CAPTURE(exact_frame, sum, PictureMode::Sum, kNone)
+    ->ArgName("lo")
+    ->Arg(400)
+    ->Arg(100)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+BENCHMARK_CAPTURE(exact_frame, sum_nearer, PictureMode::Sum, kNearer)
+    ->ArgName("lo")
+    ->Arg(400)
+    ->Arg(100)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+
+/// Ideal shells of the narrow window.
+void ideal_frame(benchmark::State& state, PictureMode mode) {
+  const EmissionMap emission = EmissionMap::window(400.0, 1400.0);
+  const ExactWalk walk(angiogram(), emission);
+  const std::vector<ShownLevel> levels = levels_of(emission, static_cast<int>(state.range(0)));
+  time_frames(state, [&](const Camera& camera) {
+    return ideal_picture(walk, camera, {.mode = mode, .cue = kNearer, .levels = levels});
+  });
+}
+BENCHMARK_CAPTURE(ideal_frame, max, PictureMode::Max)
+    ->ArgName("levels")
+    ->Arg(24)
+    ->Arg(200)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+BENCHMARK_CAPTURE(ideal_frame, sum, PictureMode::Sum)
+    ->ArgName("levels")
+    ->Arg(24)
+    ->Arg(200)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+BENCHMARK_CAPTURE(ideal_frame, count, PictureMode::Count)
+    ->ArgName("levels")
+    ->Arg(24)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+BENCHMARK_CAPTURE(ideal_frame, iso, PictureMode::Iso)
+    ->ArgName("levels")
+    ->Arg(1)
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
 

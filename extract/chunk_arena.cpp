@@ -11,7 +11,7 @@
 namespace nacre {
 namespace {
 
-constexpr std::size_t kLargestBlock = std::size_t{1} << 20;
+constexpr std::size_t kLargestBlock = std::size_t{1} << 18;
 constexpr std::size_t kAlignment = 16;
 
 }  // namespace

@@ -8,10 +8,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/error.h"
 #include "extract/slab_sweep.h"
-#include "extract/surface_merge.h"
+#include "extract/surface_parts.h"
 
 namespace nacre {
 namespace {
@@ -22,7 +23,7 @@ constexpr std::size_t kLevelsPerSweep = 255;
 /// Slabs a thread should have, so that uneven ones even out; their thickness changes no output.
 constexpr std::size_t kSlabsPerThread = 8;
 /// Thicker slabs need more memory before they are merged, thinner ones sweep more slices twice.
-constexpr std::size_t kThickestSlab = 16;
+constexpr std::size_t kThickestSlab = 8;
 constexpr std::size_t kThinnestSlab = 4;
 
 void check_values(std::span<const double> values) {
@@ -52,41 +53,67 @@ std::vector<Slab> cut_into_slabs(std::size_t layers) {
 
 /// The slabs' parts of all reached levels.
 template <class T>
-std::vector<SlabOutput> sweep(const Volume& volume, const SweepGrid& grid,
-                              const StoredLevels<T>& levels, ProgressMeter& meter) {
+std::unique_ptr<SurfaceParts> sweep(const Volume& volume, const SweepGrid& grid,
+                                    const StoredLevels<T>& levels, const SurfaceStorage& storage,
+                                    ProgressMeter& meter) {
   const SampleClasses<T> classes(levels);
   const LatticeVertices<T> vertices(grid, levels, classes, samples_as<T>(volume));
   const SampleReader samples(volume);
   const CellContours contours(grid, samples, levels.crossings, levels.descending);
   const std::vector<Slab> slabs = cut_into_slabs(grid.dims[2] - 1);
-  std::vector<SlabOutput> outputs(slabs.size());
+  auto parts =
+      std::make_unique<SurfaceParts>(slabs.size(), levels.count, grid.left_handed, storage);
   tbb::enumerable_thread_specific<SweepWorkspace> workspaces(
       [&grid] { return SweepWorkspace(grid); });
   tbb::parallel_for(std::size_t{0}, slabs.size(), [&](std::size_t s) {
-    outputs[s] = sweep_slab(slabs[s], vertices, contours, levels.count, grid, workspaces.local());
+    parts->put(s, sweep_slab(slabs[s], vertices, contours, levels.count, grid, workspaces.local()));
     meter.advance(slabs[s].end - slabs[s].begin);
   });
-  return outputs;
+  return parts;
 }
 
 }  // namespace
+ExtractedSurfaces::ExtractedSurfaces(std::vector<std::unique_ptr<SurfaceParts>> sweeps,
+                                     std::size_t size)
+    : sweeps_(std::move(sweeps)), size_(size) {}
 
-std::vector<TriangleMesh> extract_surfaces(const Volume& volume, std::span<const double> values,
-                                           const ProgressCallback& progress) {
+std::size_t ExtractedSurfaces::triangle_count(std::size_t k) const {
+  const SurfaceParts& sweep = *sweeps_[k / kLevelsPerSweep];
+  const std::size_t level = k % kLevelsPerSweep;
+  return level < sweep.level_count() ? sweep.triangle_count(level) : 0;
+}
+
+TriangleMesh ExtractedSurfaces::take(std::size_t k) {
+  SurfaceParts& sweep = *sweeps_[k / kLevelsPerSweep];
+  const std::size_t level = k % kLevelsPerSweep;
+  return level < sweep.level_count() ? sweep.take(level) : TriangleMesh();
+}
+
+ExtractedSurfaces extract_surfaces(const Volume& volume, std::span<const double> values,
+                                   const SurfaceStorage& storage,
+                                   const ProgressCallback& progress) {
   check_values(values);
   const SweepGrid grid = make_sweep_grid(volume);
-  const std::size_t sweeps = (values.size() + kLevelsPerSweep - 1) / kLevelsPerSweep;
-  ProgressMeter meter(progress, "extract", sweeps * (grid.dims[2] - 1));
-  std::vector<TriangleMesh> meshes(values.size());
+  const std::size_t sweep_count = (values.size() + kLevelsPerSweep - 1) / kLevelsPerSweep;
+  ProgressMeter meter(progress, "extract", sweep_count * (grid.dims[2] - 1));
+  std::vector<std::unique_ptr<SurfaceParts>> sweeps;
   for (std::size_t first = 0; first < values.size(); first += kLevelsPerSweep) {
     const auto batch = values.subspan(first, std::min(kLevelsPerSweep, values.size() - first));
     visit_scalar_type(volume.type, [&](auto zero) {
       using T = decltype(zero);
       const auto levels = stored_levels<T>(batch, volume.slope, volume.intercept);
-      std::vector<SlabOutput> slabs = sweep<T>(volume, grid, levels, meter);
-      merge_slabs(slabs, grid.left_handed, std::span(meshes).subspan(first, levels.count));
+      sweeps.push_back(sweep<T>(volume, grid, levels, storage, meter));
     });
+    sweeps.back()->settle();
   }
+  return {std::move(sweeps), values.size()};
+}
+
+std::vector<TriangleMesh> extract_surfaces(const Volume& volume, std::span<const double> values,
+                                           const ProgressCallback& progress) {
+  ExtractedSurfaces surfaces = extract_surfaces(volume, values, SurfaceStorage{}, progress);
+  std::vector<TriangleMesh> meshes;
+  for (std::size_t k = 0; k < surfaces.size(); ++k) meshes.push_back(surfaces.take(k));
   return meshes;
 }
 

@@ -1,11 +1,14 @@
 #pragma once
 
+#include <cstddef>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "core/progress.h"
 #include "core/triangle_mesh.h"
 #include "core/volume.h"
+#include "extract/surface_parts.h"
 
 namespace nacre {
 
@@ -41,5 +44,31 @@ namespace nacre {
 /// one slice, per thread.
 std::vector<TriangleMesh> extract_surfaces(const Volume& volume, std::span<const double> values,
                                            const ProgressCallback& progress = {});
+
+/// Surfaces that were extracted and wait to be taken one by one.
+class ExtractedSurfaces {
+ public:
+  /// @param sweeps  each of 255 levels but the last, less those that nothing can reach
+  ExtractedSurfaces(std::vector<std::unique_ptr<SurfaceParts>> sweeps, std::size_t size);
+
+  std::size_t size() const noexcept { return size_; }
+  std::size_t triangle_count(std::size_t k) const;
+
+  /// Surface k, as `extract_surfaces` gives it. Once each; safe to call from any thread.
+  /// @throws Error  Unsupported for more than 2^32 - 1 vertices, or where the scratch file cannot
+  ///                be read back
+  TriangleMesh take(std::size_t k);
+
+ private:
+  std::vector<std::unique_ptr<SurfaceParts>> sweeps_;
+  std::size_t size_;
+};
+
+/// `extract_surfaces` for surfaces too large to stand in memory side by side: the same sweep, the
+/// same bytes, but what exceeds the storage's memory waits in a nameless file. The volume is not
+/// needed to take them.
+ExtractedSurfaces extract_surfaces(const Volume& volume, std::span<const double> values,
+                                   const SurfaceStorage& storage,
+                                   const ProgressCallback& progress = {});
 
 }  // namespace nacre

@@ -34,7 +34,7 @@ void fill(draco::Mesh& result, const TriangleMesh& mesh) {
 
 }  // namespace
 
-DracoData encode_draco(const TriangleMesh& mesh, const QuantizationGrid& grid, int compression) {
+DracoData encode_draco(TriangleMesh&& mesh, const QuantizationGrid& grid, int compression) {
   const glm::vec3 origin(grid.origin_mm);
   const int speed = kSlowest - std::clamp(compression, 0, kSlowest);
   draco::Encoder encoder;
@@ -45,13 +45,14 @@ DracoData encode_draco(const TriangleMesh& mesh, const QuantizationGrid& grid, i
   encoder.SetTrackEncodedProperties(true);
   draco::Mesh input;
   fill(input, mesh);
+  mesh = {};
   draco::EncoderBuffer buffer;
   const draco::Status status = encoder.EncodeMeshToBuffer(input, &buffer);
   if (!status.ok()) {
     throw Error(ErrorCode::Unsupported,
                 fmt::format("found a shell of {} triangles that Draco refuses ({}), expected one "
                             "it compresses",
-                            mesh.triangles.size(), status.error_msg_string()));
+                            input.num_faces(), status.error_msg_string()));
   }
   DracoData result;
   const auto* begin = reinterpret_cast<const std::byte*>(buffer.data());

@@ -16,8 +16,9 @@ struct DracoData {
 
 /// Compresses a mesh whose positions lie on an exact grid; they decode bit for bit.
 ///
+/// @param mesh         gone as soon as Draco has its own copy
 /// @param compression  0 (fastest) to 10 (smallest)
 /// @throws Error  Unsupported if Draco refuses
-DracoData encode_draco(const TriangleMesh& mesh, const QuantizationGrid& grid, int compression);
+DracoData encode_draco(TriangleMesh&& mesh, const QuantizationGrid& grid, int compression);
 
 }  // namespace nacre

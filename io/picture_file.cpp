@@ -6,6 +6,7 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <string>
 #include <string_view>
 
 #include "core/error.h"
@@ -26,6 +27,13 @@ constexpr std::array<ModeText, 4> kModeTexts{{
     {PictureMode::Count, "nacre count: sum of brightness"},
     {PictureMode::Iso, "nacre iso: brightness, 0 to 1"},
 }};
+
+std::string description_of(PictureMode mode) {
+  const auto* const text =
+      std::find_if(kModeTexts.begin(), kModeTexts.end(),
+                   [mode](const ModeText& entry) { return entry.mode == mode; });
+  return std::string(text->description);
+}
 
 std::string lower_extension(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
@@ -66,21 +74,24 @@ PictureFile from_tiff(const std::filesystem::path& path) {
 PictureFormat picture_format(const std::filesystem::path& path) {
   const std::string extension = lower_extension(path);
   if (extension == ".png") return PictureFormat::Png;
+  if (extension == ".apng") return PictureFormat::Apng;
   if (extension == ".tif" || extension == ".tiff") return PictureFormat::Tiff;
   throw Error(ErrorCode::BadArgument,
-              fmt::format("{}: found the ending '{}', expected .png, .tif or .tiff", path.string(),
-                          extension));
+              fmt::format("{}: found the ending '{}', expected .png, .tif, .tiff or .apng",
+                          path.string(), extension));
 }
 
 PictureFile read_picture(const std::filesystem::path& path) {
-  return picture_format(path) == PictureFormat::Png ? from_png(path) : from_tiff(path);
+  return picture_format(path) == PictureFormat::Tiff ? from_tiff(path) : from_png(path);
+}
+
+std::vector<std::byte> encode_measured_picture(const Image& image, PictureMode mode) {
+  return encode_tiff(image, description_of(mode));
 }
 
 void write_measured_picture(const Image& image, PictureMode mode,
                             const std::filesystem::path& path) {
-  const auto text = std::find_if(kModeTexts.begin(), kModeTexts.end(),
-                                 [mode](const ModeText& entry) { return entry.mode == mode; });
-  write_tiff(image, path, std::string(text->description));
+  write_tiff(image, path, description_of(mode));
 }
 
 }  // namespace nacre

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstring>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "core/error.h"
@@ -27,7 +28,7 @@ constexpr png_uint_32 kMostPixels = 32768;
 void ignore_warning(png_structp /*png*/, png_const_charp /*message*/) {}
 
 void append_bytes(png_structp png, png_bytep data, png_size_t size) {
-  static_cast<AtomicFile*>(png_get_io_ptr(png))->write(std::as_bytes(std::span(data, size)));
+  static_cast<std::string*>(png_get_io_ptr(png))->append(reinterpret_cast<const char*>(data), size);
 }
 
 void no_flush(png_structp /*png*/) {}
@@ -49,6 +50,7 @@ struct Writer {
   png_structp png;
   png_infop info;
 
+  /// @param path  for messages
   explicit Writer(const std::filesystem::path& path)
       : png(png_create_write_struct(PNG_LIBPNG_VER_STRING,
                                     const_cast<std::filesystem::path*>(&path), throw_png_error,
@@ -84,14 +86,15 @@ void normalise(const Reader& reader) {
 
 }  // namespace
 
-void write_png(const DisplayImage& picture, const std::filesystem::path& path, int bits) {
+std::string encode_png(const DisplayImage& picture, int bits) {
   if (bits != 8 && bits != 16) {
     throw Error(ErrorCode::BadArgument,
                 fmt::format("PNG: found {} bits a channel, expected 8 or 16", bits));
   }
-  AtomicFile file(path);
-  const Writer writer(path);
-  png_set_write_fn(writer.png, &file, append_bytes, no_flush);
+  std::string bytes;
+  const std::filesystem::path nowhere("PNG");
+  const Writer writer(nowhere);
+  png_set_write_fn(writer.png, &bytes, append_bytes, no_flush);
   png_set_IHDR(writer.png, writer.info, static_cast<png_uint_32>(picture.width),
                static_cast<png_uint_32>(picture.height), bits,
                picture.channels == 3 ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_GRAY, PNG_INTERLACE_NONE,
@@ -106,6 +109,12 @@ void write_png(const DisplayImage& picture, const std::filesystem::path& path, i
     png_write_row(writer.png, packed.data());
   }
   png_write_end(writer.png, nullptr);
+  return bytes;
+}
+
+void write_png(const DisplayImage& picture, const std::filesystem::path& path, int bits) {
+  AtomicFile file(path);  // first, so that a name that cannot be is found before the work
+  file.write(encode_png(picture, bits));
   file.commit();
 }
 

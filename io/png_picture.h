@@ -2,11 +2,17 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <span>
+#include <string>
 
 #include "core/image.h"
 
 namespace nacre {
+
+/// A displayed picture as the bytes of a PNG file.
+///
+/// @param bits    8 (samples are rounded from 16) or 16 a channel
+/// @throws Error  BadArgument for other depths
+std::string encode_png(const DisplayImage& picture, int bits = 8);
 
 /// Writes a displayed picture as PNG, under its name only when whole.
 ///

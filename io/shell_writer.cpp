@@ -5,9 +5,9 @@
 
 #include <cmath>
 #include <cstring>
-#include <functional>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "core/checksum.h"
 #include "core/error.h"
@@ -25,64 +25,34 @@ constexpr std::size_t kAlignment = 4;
 
 std::size_t aligned(std::size_t size) { return (size + kAlignment - 1) / kAlignment * kAlignment; }
 
-void check_surface(const Shell& shell, std::size_t k, const QuantizationGrid& grid) {
-  for (const glm::vec3& p : shell.surface.positions) {
+void check_surface(const TriangleMesh& surface, const QuantizationGrid& grid) {
+  for (const glm::vec3& p : surface.positions) {
     if (!is_on(grid, p)) {
-      throw Error(ErrorCode::BadArgument,
-                  fmt::format("shell {}: found a vertex at ({}, {}, {}), expected it on the set's "
-                              "grid",
-                              k, p.x, p.y, p.z));
+      throw Error(
+          ErrorCode::BadArgument,
+          fmt::format("shell: found a vertex at ({}, {}, {}), expected it on the set's grid", p.x,
+                      p.y, p.z));
     }
   }
-  for (const glm::uvec3& t : shell.surface.triangles) {
-    if (std::max({t.x, t.y, t.z}) >= shell.surface.positions.size()) {
+  for (const glm::uvec3& t : surface.triangles) {
+    if (std::max({t.x, t.y, t.z}) >= surface.positions.size()) {
       throw Error(ErrorCode::BadArgument,
-                  fmt::format("shell {}: found triangle ({}, {}, {}), expected indices below {}", k,
-                              t.x, t.y, t.z, shell.surface.positions.size()));
+                  fmt::format("shell: found triangle ({}, {}, {}), expected indices below {}", t.x,
+                              t.y, t.z, surface.positions.size()));
     }
   }
 }
 
-/// A shell's place in the file, all but its offset. Bounds over the vertices that triangles use,
-/// which are those that decode.
-StoredShell describe(const TriangleMesh& surface, const DracoData& data) {
-  StoredShell stored;
-  stored.size = data.bytes.size();
-  stored.checksum = xxh64(data.bytes);
-  stored.counts = data.counts;
-  stored.lo = glm::vec3(std::numeric_limits<float>::max());
-  stored.hi = glm::vec3(std::numeric_limits<float>::lowest());
+/// Bounds over the vertices that triangles use, which are those that decode.
+void set_bounds(const TriangleMesh& surface, CompressedShell& shell) {
+  shell.lo = glm::vec3(std::numeric_limits<float>::max());
+  shell.hi = glm::vec3(std::numeric_limits<float>::lowest());
   for (const glm::uvec3& t : surface.triangles) {
     for (int i = 0; i < 3; ++i) {
-      stored.lo = glm::min(stored.lo, surface.positions[t[i]]);
-      stored.hi = glm::max(stored.hi, surface.positions[t[i]]);
+      shell.lo = glm::min(shell.lo, surface.positions[t[i]]);
+      shell.hi = glm::max(shell.hi, surface.positions[t[i]]);
     }
   }
-  return stored;
-}
-
-/// A shell's compressed bytes and its place in the file; no place where it is empty.
-struct CompressedShell {
-  DracoData data;
-  std::optional<StoredShell> stored;
-};
-
-/// @param done  called with each shell once its surface is not needed any more
-std::vector<CompressedShell> compress(const ShellSet& set, const ShellWriteOptions& options,
-                                      const std::function<void(std::size_t)>& done) {
-  std::vector<CompressedShell> shells(set.shells.size());
-  ProgressMeter progress(options.progress, "encode", set.shells.size());
-  tbb::parallel_for(std::size_t{0}, set.shells.size(), [&](std::size_t k) {
-    const Shell& shell = set.shells[k];
-    check_surface(shell, k, *set.grid);
-    if (!shell.surface.triangles.empty()) {
-      shells[k].data = encode_draco(shell.surface, *set.grid, options.compression);
-      shells[k].stored = describe(shell.surface, shells[k].data);
-    }
-    done(k);
-    progress.advance();
-  });
-  return shells;
 }
 
 /// Grows a file by parts; binary glTF is little-endian, as the machines this runs on are.
@@ -105,7 +75,7 @@ class ByteWriter {
   std::vector<std::byte> bytes_;
 };
 
-std::vector<std::byte> glb(const std::string& json, const std::vector<CompressedShell>& shells,
+std::vector<std::byte> glb(const std::string& json, std::span<const CompressedShell> shells,
                            std::size_t binary_size) {
   using namespace shell_file;
   const std::size_t json_size = aligned(json.size());
@@ -128,39 +98,66 @@ std::vector<std::byte> glb(const std::string& json, const std::vector<Compressed
     out.number(binary_size);
     out.number(kBinaryChunk);
     for (const CompressedShell& shell : shells) {
-      out.append(shell.data.bytes.data(), shell.data.bytes.size());
+      out.append(shell.bytes.data(), shell.bytes.size());
       out.pad('\0');
     }
   }
   return out.take();
 }
 
-std::vector<std::byte> encode(const ShellSet& set, const ShellWriteOptions& options,
-                              const std::function<void(std::size_t)>& done) {
+void check_set(const ShellSet& set) {
   if (const auto objection = shell_set_objection(set)) {
     throw Error(ErrorCode::BadArgument, "shell set: " + *objection);
   }
-  const std::vector<CompressedShell> shells = compress(set, options, done);
+}
+
+}  // namespace
+
+CompressedShell compress_shell(TriangleMesh&& surface, const QuantizationGrid& grid,
+                               int compression) {
+  CompressedShell shell;
+  check_surface(surface, grid);
+  if (surface.triangles.empty()) return shell;
+  set_bounds(surface, shell);
+  DracoData data = encode_draco(std::move(surface), grid, compression);
+  shell.bytes = std::move(data.bytes);
+  shell.checksum = xxh64(shell.bytes);
+  shell.triangles = data.counts.triangles;
+  shell.vertices = data.counts.vertices;
+  return shell;
+}
+
+std::vector<std::byte> assemble_shell_set(const ShellSet& set,
+                                          std::span<const CompressedShell> shells,
+                                          const ShellWriteOptions& options) {
+  check_set(set);
   std::vector<std::optional<StoredShell>> stored;
   std::size_t binary_size = 0;
   for (const CompressedShell& shell : shells) {
-    stored.push_back(shell.stored);
-    if (!shell.stored) continue;
-    stored.back()->offset = binary_size;
-    binary_size += aligned(shell.stored->size);
+    stored.emplace_back();
+    if (shell.bytes.empty()) continue;
+    stored.back() = {.offset = binary_size,
+                     .size = shell.bytes.size(),
+                     .checksum = shell.checksum,
+                     .counts = {shell.triangles, shell.vertices},
+                     .lo = shell.lo,
+                     .hi = shell.hi};
+    binary_size += aligned(shell.bytes.size());
   }
   return glb(shell_file_json(set, stored, binary_size, options.certificate_json), shells,
              binary_size);
 }
 
-}  // namespace
-
 std::vector<std::byte> encode_shell_set(const ShellSet& set, const ShellWriteOptions& options) {
-  return encode(set, options, [](std::size_t) {});
-}
-
-std::vector<std::byte> encode_shell_set(ShellSet&& set, const ShellWriteOptions& options) {
-  return encode(set, options, [&](std::size_t k) { set.shells[k].surface = {}; });
+  check_set(set);
+  std::vector<CompressedShell> shells(set.shells.size());
+  ProgressMeter progress(options.progress, "encode", set.shells.size());
+  tbb::parallel_for(std::size_t{0}, set.shells.size(), [&](std::size_t k) {
+    TriangleMesh copy = set.shells[k].surface;
+    shells[k] = compress_shell(std::move(copy), *set.grid, options.compression);
+    progress.advance();
+  });
+  return assemble_shell_set(set, shells, options);
 }
 
 void write_shell_set(const std::filesystem::path& path, const ShellSet& set,

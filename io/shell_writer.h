@@ -1,7 +1,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <glm/vec3.hpp>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -18,6 +21,32 @@ struct ShellWriteOptions {
   ProgressCallback progress = {};
 };
 
+/// One shell compressed, as it lies in the file.
+struct CompressedShell {
+  std::vector<std::byte> bytes;  ///< none for an empty surface
+  std::uint64_t checksum = 0;    ///< xxh64 of the bytes
+  std::size_t triangles = 0;     ///< that decode
+  std::size_t vertices = 0;
+  glm::vec3 lo{0.0f};  ///< bounds of the positions
+  glm::vec3 hi{0.0f};
+};
+
+/// Compresses one surface of a set, which is gone as soon as its last copy is needed no more.
+///
+/// @param compression  see `ShellWriteOptions`
+/// @throws Error       BadArgument if a position is not on the grid, or an index is out of range
+CompressedShell compress_shell(TriangleMesh&& surface, const QuantizationGrid& grid,
+                               int compression = 10);
+
+/// The bytes of a set whose surfaces were compressed one by one.
+///
+/// @param set     its surfaces are not looked at
+/// @param shells  one for each of its levels
+/// @throws Error  as `encode_shell_set`
+std::vector<std::byte> assemble_shell_set(const ShellSet& set,
+                                          std::span<const CompressedShell> shells,
+                                          const ShellWriteOptions& options = {});
+
 /// A shell set as the bytes of a `.glb` file: binary glTF 2.0 that any viewer opens, one
 /// Draco-compressed mesh a shell, the shells' meaning in `extras.nacre` (docs/shell_file.md).
 ///
@@ -30,10 +59,6 @@ struct ShellWriteOptions {
 ///                out of range, a number is not finite, levels do not ascend, or the certificate
 ///                is not JSON; Unsupported if the file would exceed the 4 GiB of binary glTF
 std::vector<std::byte> encode_shell_set(const ShellSet& set, const ShellWriteOptions& options = {});
-
-/// The same, freeing each surface as soon as it is compressed: a large set need not stand in memory
-/// twice.
-std::vector<std::byte> encode_shell_set(ShellSet&& set, const ShellWriteOptions& options = {});
 
 /// Writes `encode_shell_set` to a file, which appears whole or not at all.
 /// @throws Error  as above, and as `AtomicFile` if it cannot be written

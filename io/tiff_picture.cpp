@@ -142,10 +142,8 @@ Tiff open_in_memory(MemoryFile& file, const char* mode) {
 
 }  // namespace
 
-void write_tiff(const Image& image, const std::filesystem::path& path,
-                const std::string& description) {
+std::vector<std::byte> encode_tiff(const Image& image, const std::string& description) {
   const SilentTiff silent;
-  AtomicFile out(path);
   MemoryFile memory;
   {
     const Tiff tiff = open_in_memory(memory, "wm");
@@ -154,7 +152,13 @@ void write_tiff(const Image& image, const std::filesystem::path& path,
     TIFFWriteEncodedStrip(tiff.get(), 0, const_cast<float*>(image.pixels.data()),
                           static_cast<tmsize_t>(image.pixels.size() * sizeof(float)));
   }
-  out.write(memory.bytes);
+  return std::move(memory.bytes);
+}
+
+void write_tiff(const Image& image, const std::filesystem::path& path,
+                const std::string& description) {
+  AtomicFile out(path);  // first, so that a name that cannot be is found before the work
+  out.write(encode_tiff(image, description));
   out.commit();
 }
 

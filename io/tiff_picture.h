@@ -1,11 +1,18 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "core/image.h"
 
 namespace nacre {
+
+/// A picture as the bytes of a TIFF file: float32, one channel, uncompressed.
+///
+/// @param description  goes into ImageDescription: what the pixels are, in which unit
+std::vector<std::byte> encode_tiff(const Image& image, const std::string& description);
 
 /// Writes a picture as TIFF: float32, one channel, uncompressed, under its name only when whole.
 ///

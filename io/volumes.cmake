@@ -4,20 +4,21 @@ find_package(ZLIB REQUIRED)
 find_path(NACRE_NIFTI_INCLUDE_DIR nifti/nifti2_io.h REQUIRED)
 find_library(NACRE_NIFTI2_LIBRARY nifti2 REQUIRED)
 
-# nacre::io_files: a file that appears under its name only when it is whole.
+# nacre::io_files: files that appear under their names only when they are whole, files read by place,
+# and what is said of bad ones.
 nacre_library(io_files
-  SOURCES atomic_file.cpp
-  HEADERS atomic_file.h
+  SOURCES atomic_file.cpp bad_file.cpp byte_source.cpp
+  HEADERS atomic_file.h bad_file.h byte_source.h
   LINK nacre::core
   LINK_PRIVATE fmt::fmt)
 
 # nacre::io_volumes: volume files and DICOM series to volumes, and back.
 nacre_library(io_volumes
-  SOURCES bad_file.cpp data_files.cpp dicom_magic.cpp gzip_writer.cpp metaimage_writer.cpp
+  SOURCES data_files.cpp dicom_magic.cpp gzip_writer.cpp metaimage_writer.cpp
     nifti_header.cpp nifti_volume.cpp nifti_writer.cpp nrrd_writer.cpp non_finite.cpp
     raw_volume.cpp slice_stack.cpp stored_samples.cpp stretch.cpp volume_checks.cpp volume_crop.cpp
     volume_reader.cpp volume_writer.cpp
-  HEADERS bad_file.h child_process.h data_files.h dicom_extent.h dicom_magic.h dicom_series.h dicom_slice.h length_unit.h metaimage_text.h metaimage_volume.h nifti_header.h
+  HEADERS child_process.h data_files.h dicom_extent.h dicom_magic.h dicom_series.h dicom_slice.h length_unit.h metaimage_text.h metaimage_volume.h nifti_header.h
     nifti_volume.h non_finite.h nrrd_text.h nrrd_volume.h number_list.h raw_volume.h
     slice_stack.h     stored_samples.h stretch.h volume_checks.h volume_crop.h volume_read_report.h volume_reader.h volume_writer.h
     gzip_writer.h metaimage_writer.h nifti_writer.h nrrd_writer.h

@@ -22,27 +22,6 @@ void append(UnitRoots& roots, double s) {
   if (s > last && s < 1.0) roots.s[roots.count++] = s;
 }
 
-/// The crossing of f between s0 and s1, where f is monotone and f0, f1 (less the level) have
-/// opposite signs: Newton's steps, kept in a bracket that they or bisection shrink.
-double bracketed_crossing(const BernsteinCubic& f, double level, double s0, double s1, double f0) {
-  constexpr int kMostSteps = 128;
-  double s = 0.5 * (s0 + s1);
-  for (int step = 0; step < kMostSteps; ++step) {
-    const double value = evaluate(f, s) - level;
-    if (value == 0.0) return s;
-    ((value < 0.0) == (f0 < 0.0) ? s0 : s1) = s;
-    const double slope = 3.0 * mix(mix(f.b[1] - f.b[0], f.b[2] - f.b[1], s),
-                                   mix(f.b[2] - f.b[1], f.b[3] - f.b[2], s), s);
-    double next = s - value / slope;
-    // Outside the bracket, or NaN from a zero slope.
-    if (!(next > s0 && next < s1)) next = 0.5 * (s0 + s1);
-    if (next == s || next == s0 || next == s1) return next;
-    if (std::abs(next - s) <= 1e-16) return next;
-    s = next;
-  }
-  return s;
-}
-
 }  // namespace
 
 double evaluate(const BernsteinCubic& f, double s) noexcept { return blossom(f, s, s, s); }
@@ -87,6 +66,27 @@ double maximum(const BernsteinCubic& f) noexcept {
   return best;
 }
 
+// Newton's steps, kept in a bracket that they or bisection shrink.
+double crossing_between(const BernsteinCubic& f, double level, double s0, double s1,
+                        bool rising) noexcept {
+  constexpr int kMostSteps = 128;
+  double s = 0.5 * (s0 + s1);
+  for (int step = 0; step < kMostSteps; ++step) {
+    const double value = evaluate(f, s) - level;
+    if (value == 0.0) return s;
+    ((value < 0.0) == rising ? s0 : s1) = s;
+    const double slope = 3.0 * mix(mix(f.b[1] - f.b[0], f.b[2] - f.b[1], s),
+                                   mix(f.b[2] - f.b[1], f.b[3] - f.b[2], s), s);
+    double next = s - value / slope;
+    // Outside the bracket, or NaN from a zero slope.
+    if (!(next > s0 && next < s1)) next = 0.5 * (s0 + s1);
+    if (next == s || next == s0 || next == s1) return next;
+    if (std::abs(next - s) <= 1e-16) return next;
+    s = next;
+  }
+  return s;
+}
+
 UnitRoots crossings(const BernsteinCubic& f, double level) noexcept {
   UnitRoots roots;
   const auto [least, greatest] = std::minmax_element(f.b.begin(), f.b.end());
@@ -99,7 +99,7 @@ UnitRoots crossings(const BernsteinCubic& f, double level) noexcept {
     const double s1 = i < critical.count ? critical.s[i] : 1.0;
     const double f1 = i < critical.count ? evaluate(f, s1) - level : f.b[3] - level;
     if ((f0 < 0.0 && f1 > 0.0) || (f0 > 0.0 && f1 < 0.0)) {
-      append(roots, bracketed_crossing(f, level, s0, s1, f0));
+      append(roots, crossing_between(f, level, s0, s1, f0 < 0.0));
     } else if (f1 == 0.0 && i < critical.count) {
       append(roots, s1);  // harmless where it only touches: it just splits an interval
     }

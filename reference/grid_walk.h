@@ -138,6 +138,13 @@ inline glm::dvec3 point_in_cell(const CellLine& line, const glm::ivec3& cell, do
   return glm::clamp(line.origin + t * line.direction - glm::dvec3(cell), 0.0, 1.0);
 }
 
+/// What to do with a brick that the line comes to.
+enum class BrickVisit {
+  Cells,  ///< walk its cells
+  Pass,   ///< pass it by
+  End,    ///< end the walk before it
+};
+
 /// Walks the cells of a grid along a line, from near to far, a brick at a time.
 ///
 /// Each part of the line belongs to exactly one cell: none is lost between cells, none counted
@@ -145,7 +152,7 @@ inline glm::dvec3 point_in_cell(const CellLine& line, const glm::ivec3& cell, do
 /// same).
 ///
 /// @param interval  from `clip_to_grid`
-/// @param on_brick  `bool(brick_index, length_mm)`: walk the brick's cells (true), or pass it by
+/// @param on_brick  `BrickVisit(brick_index, t_enter, t_exit)`
 /// @param on_cell   `bool(cell, t_enter, t_exit)`: false ends the walk
 template <class OnBrick, class OnCell>
 void walk_grid(const VolumeBricks& bricks, const glm::i64vec3& cells, const CellLine& line,
@@ -161,7 +168,10 @@ void walk_grid(const VolumeBricks& bricks, const glm::i64vec3& cells, const Cell
   while (t < interval.t_exit) {
     const int brick_axis = brick.exit_axis();
     const double t_brick = std::clamp(brick.exit_t(brick_axis), t, interval.t_exit);
-    if (t_brick > t && on_brick(bricks.index(brick.index()), t_brick - t)) {
+    const BrickVisit visit =
+        t_brick > t ? on_brick(bricks.index(brick.index()), t, t_brick) : BrickVisit::Pass;
+    if (visit == BrickVisit::End) return;
+    if (visit == BrickVisit::Cells) {
       const glm::ivec3 lo = kSide * brick.index();
       const glm::ivec3 hi = glm::min(lo + (kSide - 1), last_cell);
       LineStepper cell(line, 1, cube_at(line, t, 1, lo, hi));

@@ -1,8 +1,8 @@
 #include "reference/mean_emission.h"
 
 #include <algorithm>
-#include <span>
-#include <vector>
+
+#include "reference/knot_splits.h"
 
 namespace nacre {
 namespace {
@@ -13,33 +13,16 @@ double mean(const BernsteinCubic& f) { return 0.25 * ((f.b[0] + f.b[3]) + (f.b[1
 /// put single values of f a hair beyond the piece's knots; its mean lies inside.
 double mean_within_piece(const EmissionMap& map, const BernsteinCubic& f) { return map(mean(f)); }
 
-/// Whether a knot lies strictly between the cubic's least and greatest coefficient: only such a
-/// knot can be crossed.
-bool any_between(std::span<const EmissionKnot> knots, double least, double greatest) {
-  return std::any_of(knots.begin(), knots.end(), [=](const EmissionKnot& knot) {
-    return knot.value > least && knot.value < greatest;
-  });
-}
-
 }  // namespace
 
 double mean_emission(const EmissionMap& map, const BernsteinCubic& f) {
   const auto [least, greatest] = std::minmax_element(f.b.begin(), f.b.end());
-  if (!any_between(map.knots(), *least, *greatest)) return mean_within_piece(map, f);
+  if (!any_knot_between(map, *least, *greatest)) return mean_within_piece(map, f);
 
-  std::vector<double> splits{0.0, 1.0};
-  for (const EmissionKnot& knot : map.knots()) {
-    const UnitRoots roots = crossings(f, knot.value);
-    splits.insert(splits.end(), roots.s.begin(), roots.s.begin() + roots.count);
-  }
-  std::sort(splits.begin(), splits.end());
   double sum = 0.0;
-  for (std::size_t i = 1; i < splits.size(); ++i) {
-    const double width = splits[i] - splits[i - 1];
-    if (width > 0.0) {
-      sum += width * mean_within_piece(map, restrict_to(f, splits[i - 1], splits[i]));
-    }
-  }
+  for_each_piece(map, f, [&](double s0, double s1, std::size_t) {
+    if (s0 < s1) sum += (s1 - s0) * mean_within_piece(map, restrict_to(f, s0, s1));
+  });
   return sum;
 }
 

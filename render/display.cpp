@@ -3,65 +3,90 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
+#include <glm/common.hpp>
 
 #include "core/error.h"
 
 namespace nacre {
 namespace {
 
-constexpr std::array<std::string_view, 3> kColorMaps{"gray", "gray-inverted", "hot"};
-
 std::uint16_t to_16_bits(double brightness) {
   return static_cast<std::uint16_t>(std::lround(65535.0 * std::clamp(brightness, 0.0, 1.0)));
 }
 
-/// Black, red, yellow, white: each channel rises over its own third.
-void append_hot(double brightness, std::vector<std::uint16_t>& pixels) {
-  for (const double start : {0.0, 1.0, 2.0}) pixels.push_back(to_16_bits(3.0 * brightness - start));
-}
-
-void check(const DisplayWindow& window, std::string_view color_map) {
+void check(const DisplayWindow& window) {
   if (!(window.lo < window.hi) || !std::isfinite(window.hi - window.lo)) {
     throw Error(ErrorCode::BadArgument,
                 fmt::format("display window: found {},{}, expected LO < HI", window.lo, window.hi));
   }
-  if (std::find(kColorMaps.begin(), kColorMaps.end(), color_map) == kColorMaps.end()) {
-    throw Error(
-        ErrorCode::BadArgument,
-        fmt::format("colour map: found '{}', expected gray, gray-inverted or hot", color_map));
+}
+
+bool shows_tools(const Picture& picture) {
+  return picture.tools.has_value() &&
+         std::find(picture.tools->covered.begin(), picture.tools->covered.end(), 1) !=
+             picture.tools->covered.end();
+}
+
+/// Light upon light, or the brighter of both.
+glm::dvec3 add_light(const glm::dvec3& volume, const glm::dvec3& tool, bool added) {
+  return added ? volume + tool : glm::max(volume, tool);
+}
+
+/// The colour of a pixel in which a tool is seen.
+///
+/// @param pixel   of the volume's part, as measured
+/// @param volume  its display colour
+glm::dvec3 with_tool(float pixel, const glm::dvec3& volume, const glm::dvec3& tool,
+                     const ColorMap& map, const DisplayOptions& options) {
+  if (options.blend == ToolBlend::Over || options.mode == PictureMode::Iso) {
+    return pixel > 0.0F ? volume : tool;
   }
+  const bool added = options.mode == PictureMode::Sum || options.mode == PictureMode::Count;
+  if (map.is_inverted()) return 1.0 - add_light(1.0 - volume, 1.0 - tool, added);
+  return add_light(volume, tool, added);
 }
 
 }  // namespace
 
 DisplayWindow default_display_window(const Image& image, PictureMode mode) {
-  if (mode == PictureMode::Max || mode == PictureMode::Iso || image.pixels.empty()) return {};
-  const float largest = *std::max_element(image.pixels.begin(), image.pixels.end());
-  return {0.0, largest > 0.0f ? static_cast<double>(largest) : 1.0};
+  if (image.pixels.empty()) return {};
+  return default_display_window(*std::max_element(image.pixels.begin(), image.pixels.end()), mode);
 }
 
-std::span<const std::string_view> color_map_names() { return kColorMaps; }
+DisplayWindow default_display_window(float largest, PictureMode mode) {
+  if (mode == PictureMode::Max || mode == PictureMode::Iso) return {};
+  return {0.0, largest > 0.0F ? static_cast<double>(largest) : 1.0};
+}
 
 DisplayImage display_picture(const Image& image, const DisplayWindow& window,
                              std::string_view color_map) {
-  check(window, color_map);
-  const bool hot = color_map == "hot";
-  const bool inverted = color_map == "gray-inverted";
-  DisplayImage picture{image.width, image.height, hot ? 3 : 1, {}};
-  picture.pixels.reserve(image.pixels.size() * (hot ? 3 : 1));
-  for (const float pixel : image.pixels) {
+  return display_picture(Picture{image, std::nullopt}, {.window = window, .color_map = color_map});
+}
+
+DisplayImage display_picture(const Picture& picture, const DisplayOptions& options) {
+  check(options.window);
+  const ColorMap map(options.color_map);
+  const Image& image = picture.volume;
+  const bool tools = shows_tools(picture);
+  assert(!tools || picture.tools->covered.size() == image.pixels.size());
+  DisplayImage shown{image.width, image.height, tools || options.rgb || !map.is_gray() ? 3 : 1, {}};
+  shown.pixels.reserve(image.pixels.size() * static_cast<std::size_t>(shown.channels));
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) {
     const double brightness =
-        std::clamp((static_cast<double>(pixel) - window.lo) / (window.hi - window.lo), 0.0, 1.0);
-    if (hot) {
-      append_hot(brightness, picture.pixels);
-    } else {
-      picture.pixels.push_back(to_16_bits(inverted ? 1.0 - brightness : brightness));
+        std::clamp((static_cast<double>(image.pixels[i]) - options.window.lo) /
+                       (options.window.hi - options.window.lo),
+                   0.0, 1.0);
+    glm::dvec3 color = map(brightness);
+    if (tools && picture.tools->covered[i] != 0) {
+      const glm::dvec3 tool = glm::clamp(glm::dvec3(picture.tools->colors[i]), 0.0, 1.0);
+      color = with_tool(image.pixels[i], color, tool, map, options);
     }
+    for (int c = 0; c < shown.channels; ++c) shown.pixels.push_back(to_16_bits(color[c]));
   }
-  return picture;
+  return shown;
 }
 
 }  // namespace nacre

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <glm/geometric.hpp>
 #include <glm/vec4.hpp>
+#include <limits>
 
 namespace nacre {
 namespace {
@@ -52,12 +53,42 @@ std::array<glm::dvec3, 8> corners(const Box& box) {
   return result;
 }
 
+/// Values of an affine function all over the box.
+Interval range_on(const Box& box, const glm::dvec4& function) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Interval range{infinity, -infinity};
+  for (const glm::dvec3& p : corners(box)) {
+    const double value = glm::dot(function, glm::dvec4(p, 1.0));
+    range = {std::min(range.lo, value), std::max(range.hi, value)};
+  }
+  return range;
+}
+
 /// Whether the affine function is negative all over the box.
 bool negative_on(const Box& box, const glm::dvec4& function) {
-  const auto points = corners(box);
-  return std::all_of(points.begin(), points.end(), [&](const glm::dvec3& p) {
-    return glm::dot(function, glm::dvec4(p, 1.0)) < 0.0;
-  });
+  return range_on(box, function).hi < 0.0;
+}
+
+/// Where in the picture the box lies along one of its axes, from -1 to 1; all of the axis if part
+/// of the box is before the near plane.
+Interval extent_on(const Camera& camera, const std::array<glm::dvec4, 4>& rows, std::size_t axis,
+                   const Box& box) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const glm::dvec4& w = rows[3];
+  if (camera.perspective && range_on(box, w).lo <= near_plane_mm(camera)) {
+    return {-infinity, infinity};
+  }
+  Interval extent{infinity, -infinity};
+  for (const glm::dvec3& p : corners(box)) {
+    const glm::dvec4 point(p, 1.0);
+    const double place = glm::dot(rows[axis], point) / glm::dot(w, point);
+    extent = {std::min(extent.lo, place), std::max(extent.hi, place)};
+  }
+  return extent;
+}
+
+bool overlap(const Interval& a, const Interval& b, double margin) {
+  return a.lo <= b.hi + margin && b.lo <= a.hi + margin;
 }
 
 }  // namespace
@@ -89,10 +120,28 @@ bool outside_view(const Camera& camera, const glm::dvec3& origin_mm, const Box& 
          negative_on(box, w * (1.0 + pixel.y) + rows[1]);
 }
 
-bool beyond_near_plane(const Camera& camera, const glm::dvec3& origin_mm, const Box& box) {
-  if (!camera.perspective) return true;
-  const glm::dvec4 w = picture_rows(camera, origin_mm)[3];
-  return negative_on(box, row({}, near_plane_mm(camera)) - w);
+glm::dvec4 view_depth_from_local(const Camera& camera, const glm::dvec3& origin_mm) {
+  const glm::dvec3 from = camera.perspective ? eye_mm(camera) : camera.sphere.center_mm;
+  return row(camera.forward, glm::dot(camera.forward, origin_mm - from));
+}
+
+double view_depth_of_slab(const Camera& camera, double slab_mm) {
+  return camera.perspective ? slab_mm - slab_depth_mm(camera, eye_mm(camera)) : slab_mm;
+}
+
+Interval view_depths(const Camera& camera, const glm::dvec3& origin_mm, const Box& box) {
+  return range_on(box, view_depth_from_local(camera, origin_mm));
+}
+
+bool may_hide(const Camera& camera, const glm::dvec3& origin_mm, const Box& front,
+              const Box& behind) {
+  if (view_depths(camera, origin_mm, front).lo > view_depths(camera, origin_mm, behind).hi) {
+    return false;
+  }
+  const std::array<glm::dvec4, 4> rows = picture_rows(camera, origin_mm);
+  const glm::dvec2 pixel = 2.0 / glm::dvec2(camera.size);
+  return overlap(extent_on(camera, rows, 0, front), extent_on(camera, rows, 0, behind), pixel.x) &&
+         overlap(extent_on(camera, rows, 1, front), extent_on(camera, rows, 1, behind), pixel.y);
 }
 
 }  // namespace nacre

@@ -43,8 +43,27 @@ glm::dmat4 clip_from_local(const Camera& camera, const glm::dvec3& origin_mm,
 /// the reverse.
 bool outside_view(const Camera& camera, const glm::dvec3& origin_mm, const Box& box);
 
-/// Whether all of the box lies beyond the near plane; always so for an orthographic camera. Then
-/// the eye is outside whatever the box bounds.
-bool beyond_near_plane(const Camera& camera, const glm::dvec3& origin_mm, const Box& box);
+/// **View depth**: how far along the viewing direction a point lies, mm. Perspective: from the eye
+/// (eye depth). Orthographic, where the eye is infinitely far: from the sphere's centre, as slabs
+/// are given. The affine function of a point relative to `origin_mm`: dot(row.xyz, p) + row.w.
+glm::dvec4 view_depth_from_local(const Camera& camera, const glm::dvec3& origin_mm);
+
+/// View depth of what is `slab_mm` along the viewing direction from the sphere's centre.
+double view_depth_of_slab(const Camera& camera, double slab_mm);
+
+/// Values from `lo` to `hi`.
+struct Interval {
+  double lo = 0.0;
+  double hi = 0.0;
+};
+
+/// View depths, mm, of a box that is not empty (relative to `origin_mm`).
+Interval view_depths(const Camera& camera, const glm::dvec3& origin_mm, const Box& box);
+
+/// Whether something in the box `front` may hide, from some ray of the picture, something in the
+/// box `behind`: they overlap in the picture, to a pixel, and the one does not lie wholly farther
+/// away. May say yes where the answer is no, never the reverse.
+bool may_hide(const Camera& camera, const glm::dvec3& origin_mm, const Box& front,
+              const Box& behind);
 
 }  // namespace nacre

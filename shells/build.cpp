@@ -2,15 +2,17 @@
 
 #include <fmt/core.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <chrono>
 #include <functional>
+#include <numeric>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "core/error.h"
-#include "core/quantization_grid.h"
 #include "core/volume_geometry.h"
 #include "extract/marching_cubes.h"
 #include "shells/prune.h"
@@ -21,6 +23,15 @@
 
 namespace nacre {
 namespace {
+
+/// What a volume and its surfaces, while they wait, may hold in memory together; and the surfaces
+/// of a larger volume.
+constexpr std::size_t kHeldBytes = std::size_t{64} << 20;
+constexpr std::size_t kLeastHeldBytes = std::size_t{1} << 18;
+
+/// What snapping or compressing a shell takes at its peak, measured (docs/decisions/006).
+constexpr std::size_t kWorkingBytesPerTriangle = 120;
+constexpr std::size_t kLeastWorkingMemory = std::size_t{128} << 20;
 
 /// Seconds since it was made.
 class Stopwatch {
@@ -65,39 +76,61 @@ ShellSet describe(const Volume& volume, const EmissionMap& emission, const Build
   return set;
 }
 
-void extract(const Volume& volume, const BuildOptions& options, ShellSet& set) {
+ExtractedSurfaces extract(const Volume& volume, const BuildOptions& options, const ShellSet& set) {
   std::vector<double> values;
   values.reserve(set.shells.size());
   for (const Shell& shell : set.shells) values.push_back(shell.value);
-  std::vector<TriangleMesh> surfaces = extract_surfaces(volume, values, options.progress);
-  for (std::size_t k = 0; k < surfaces.size(); ++k) set.shells[k].surface = std::move(surfaces[k]);
+  SurfaceStorage storage;
+  storage.scratch_folder = options.scratch_folder;
+  storage.memory_bytes =
+      std::max(kHeldBytes - std::min(volume.samples.size(), kHeldBytes), kLeastHeldBytes);
+  return extract_surfaces(volume, values, storage, options.progress);
 }
 
-/// The largest shells first: one of them alone at the end would keep one thread busy.
-std::vector<std::size_t> largest_first(const ShellSet& set) {
-  std::vector<std::size_t> order(set.shells.size());
-  for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return set.shells[a].surface.triangles.size() > set.shells[b].surface.triangles.size();
-  });
-  return order;
-}
-
-/// Calls `function(k)` with every shell, in parallel.
+/// Calls `function(k)` with every shell, in parallel, as far as the shells at work fit in the
+/// memory that they may take.
+///
+/// The largest come first: one of them alone at the end would keep one thread busy.
+///
+/// @param triangles  of each shell
 template <class Function>
-void for_each_shell(const ShellSet& set, const ProgressCallback& callback, std::string_view stage,
-                    Function&& function) {
-  const std::vector<std::size_t> order = largest_first(set);
-  ProgressMeter progress(callback, stage, order.size());
-  tbb::parallel_for(
-      tbb::blocked_range<std::size_t>(0, order.size(), 1),
-      [&](const tbb::blocked_range<std::size_t>& range) {
-        for (std::size_t i = range.begin(); i < range.end(); ++i) {
-          function(order[i]);
-          progress.advance();
-        }
-      },
-      tbb::simple_partitioner());
+void for_each_shell(std::span<const std::size_t> triangles, std::size_t memory_bytes,
+                    const ProgressCallback& callback, std::string_view stage, Function&& function) {
+  std::vector<std::size_t> order(triangles.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return triangles[a] > triangles[b]; });
+  const auto at_a_time = [&](std::size_t i) {
+    const std::size_t fit =
+        memory_bytes / (kWorkingBytesPerTriangle * std::max<std::size_t>(triangles[order[i]], 1));
+    const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+    return std::clamp<std::size_t>(fit, 1, threads);
+  };
+  ProgressMeter progress(callback, stage, std::reduce(triangles.begin(), triangles.end()));
+  for (std::size_t begin = 0; begin < order.size();) {
+    // As many as may work side by side in the memory of the first.
+    const std::size_t width = at_a_time(begin);
+    std::size_t end = begin + 1;
+    while (end < order.size() && at_a_time(end) == width) ++end;
+    tbb::task_arena arena(static_cast<int>(width));
+    arena.execute([&] {
+      tbb::parallel_for(
+          tbb::blocked_range<std::size_t>(begin, end, 1),
+          [&](const tbb::blocked_range<std::size_t>& range) {
+            for (std::size_t i = range.begin(); i < range.end(); ++i) {
+              function(order[i]);
+              progress.advance(triangles[order[i]]);
+            }
+          },
+          tbb::simple_partitioner());
+    });
+    begin = end;
+  }
+}
+
+/// What shells at work may take: the place of the volume that is gone by then, and a quarter.
+std::size_t working_memory(const Volume& volume) {
+  return std::max(volume.samples.size() / 4 * 5, kLeastWorkingMemory);
 }
 
 bool is_simplifying(const BuildOptions& options) {
@@ -106,11 +139,15 @@ bool is_simplifying(const BuildOptions& options) {
 }
 
 void simplify_shells(const Volume& volume, const EmissionMap& emission, const BuildOptions& options,
-                     std::size_t extracted_triangles, ShellSet& set) {
+                     std::span<const std::size_t> triangles,
+                     const std::function<TriangleMesh(std::size_t)>& source, ShellSet& set) {
+  const auto extracted_triangles = std::reduce(triangles.begin(), triangles.end());
   const TrilinearField field(volume);
   const glm::dvec3 spacing = spacing_mm(volume.world_from_voxel);
-  for_each_shell(set, options.progress, "simplify", [&](std::size_t k) {
+  const std::size_t memory = working_memory(volume);
+  for_each_shell(triangles, memory, options.progress, "simplify", [&](std::size_t k) {
     Shell& shell = set.shells[k];
+    shell.surface = source(k);
     SimplifyOptions bounds;
     bounds.tolerance_mm = options.tolerance_mm;
     bounds.sample_spacing_mm = std::min({spacing.x, spacing.y, spacing.z});
@@ -127,42 +164,48 @@ void simplify_shells(const Volume& volume, const EmissionMap& emission, const Bu
   });
 }
 
-void snap_shells(const BuildOptions& options, ShellSet& set, SnapReport& report) {
-  std::vector<SnapReport> reports(set.shells.size());
-  for_each_shell(set, options.progress, "snap", [&](std::size_t k) {
-    SnappedSurface snapped = snap(set.shells[k].surface, *set.grid);
-    set.shells[k].surface = std::move(snapped.mesh);
-    reports[k] = snapped.report;
-  });
-  for (const SnapReport& shell : reports) report += shell;
-}
+/// What snapping takes from, and gives to.
+struct SnapEnds {
+  std::function<TriangleMesh(std::size_t k)> source;
+  const SurfaceSink& sink;
+};
 
-/// What the surfaces may meet, now that they lie where they will.
-std::vector<StrayTriangles> stray_triangles(const Volume& volume, const EmissionMap& emission,
-                                            const ShellSet& set) {
-  const TrilinearField field(volume);
-  std::vector<StrayTriangles> strays(set.shells.size());
-  for_each_shell(set, {}, "", [&](std::size_t k) {
-    const Shell& shell = set.shells[k];
-    const bool first = k == 0;
-    const bool last = k + 1 == set.shells.size();
-    const double below = first ? -1.0 : 0.5 * (set.shells[k - 1].emission + shell.emission);
-    const double above = last ? 2.0 : 0.5 * (shell.emission + set.shells[k + 1].emission);
-    strays[k] =
-        find_stray_triangles(shell.surface, field, emission, below, above, step_mm(*set.grid));
+/// @param set  its surfaces are those the sink does not take
+void snap_shells(std::span<const std::size_t> triangles, std::size_t memory, const SnapEnds& ends,
+                 const BuildOptions& options, ShellSet& set, BuildReport& report) {
+  std::vector<BuildReport> parts(set.shells.size());
+  const Stopwatch watch;
+  for_each_shell(triangles, memory, options.progress, "snap", [&](std::size_t k) {
+    const Stopwatch snapping;
+    SnappedSurface snapped = snap(ends.source(k), *set.grid);
+    parts[k].snapped = snapped.report;
+    parts[k].triangles = snapped.mesh.triangles.size();
+    parts[k].snap_seconds = snapping.seconds();
+    const Stopwatch sinking;
+    if (!ends.sink) {
+      set.shells[k].surface = std::move(snapped.mesh);
+    } else if (parts[k].triangles > 0) {
+      ends.sink(set, k, std::move(snapped.mesh));
+    }
+    parts[k].sink_seconds = sinking.seconds();
   });
-  return strays;
-}
-
-std::size_t triangle_count(const ShellSet& set) {
-  std::size_t count = 0;
-  for (const Shell& shell : set.shells) count += shell.surface.triangles.size();
-  return count;
+  const double seconds = watch.seconds();
+  for (const BuildReport& part : parts) {
+    report.snapped += part.snapped;
+    report.triangles += part.triangles;
+    report.snap_seconds += part.snap_seconds;
+    report.sink_seconds += part.sink_seconds;
+  }
+  // The two ran side by side: each is given its part of the time that passed.
+  const double sum = report.snap_seconds + report.sink_seconds;
+  const double scale = sum > seconds ? seconds / sum : 1.0;
+  report.snap_seconds *= scale;
+  report.sink_seconds *= scale;
 }
 
 /// @param volume_done  called when the volume is not needed any more
 BuiltShells build(const Volume& volume, const EmissionMap& emission, const BuildOptions& options,
-                  const std::function<void()>& volume_done) {
+                  const SurfaceSink& sink, const std::function<void()>& volume_done) {
   check_levels(options.levels);
   BuiltShells built{describe(volume, emission, options), {}};
   const GridChoice grid =
@@ -173,30 +216,28 @@ BuiltShells build(const Volume& volume, const EmissionMap& emission, const Build
   report.is_grid_coarse = grid.is_coarse;
 
   const Stopwatch extracting;
-  extract(volume, options, built.set);
+  ExtractedSurfaces surfaces = extract(volume, options, built.set);
   report.extract_seconds = extracting.seconds();
-  report.extracted_triangles = triangle_count(built.set);
-
-  const Stopwatch pruning;
-  built.set.pruned = prune(built.set, {.min_component_mm3 = options.min_component_mm3,
-                                       .prune_inner = options.prune_inner,
-                                       .progress = options.progress});
-  report.prune_seconds = pruning.seconds();
+  std::vector<std::size_t> triangles(surfaces.size());
+  for (std::size_t k = 0; k < triangles.size(); ++k) triangles[k] = surfaces.triangle_count(k);
+  report.extracted_triangles = std::reduce(triangles.begin(), triangles.end());
+  const std::size_t memory = working_memory(volume);
+  Pruner pruner(surfaces.size(), {.min_component_mm3 = options.min_component_mm3,
+                                  .prune_inner = options.prune_inner});
+  SnapEnds ends{[&](std::size_t k) { return pruner.prune(k, surfaces.take(k)); }, sink};
 
   if (is_simplifying(options)) {
     const Stopwatch simplifying;
-    simplify_shells(volume, emission, options, report.extracted_triangles, built.set);
+    simplify_shells(volume, emission, options, triangles, ends.source, built.set);
     report.simplify_seconds = simplifying.seconds();
+    for (std::size_t k = 0; k < triangles.size(); ++k) {
+      triangles[k] = built.set.shells[k].surface.triangles.size();
+    }
+    ends.source = [&](std::size_t k) { return std::exchange(built.set.shells[k].surface, {}); };
   }
-  const Stopwatch snapping;
-  snap_shells(options, built.set, report.snapped);
-  report.snap_seconds = snapping.seconds();
-  const Stopwatch crossing;
-  const std::vector<StrayTriangles> strays = stray_triangles(volume, emission, built.set);
   volume_done();
-  report.crossings = count_crossings(built.set, strays);
-  report.crossings_seconds = crossing.seconds();
-  report.triangles = triangle_count(built.set);
+  snap_shells(triangles, memory, ends, options, built.set, report);
+  built.set.pruned = pruner.result(built.set);
   return built;
 }
 
@@ -204,13 +245,18 @@ BuiltShells build(const Volume& volume, const EmissionMap& emission, const Build
 
 BuiltShells build_shells(const Volume& volume, const EmissionMap& emission,
                          const BuildOptions& options) {
-  return build(volume, emission, options, [] {});
+  return build(volume, emission, options, {}, [] {});
 }
 
 BuiltShells build_shells(Volume&& volume, const EmissionMap& emission,
                          const BuildOptions& options) {
+  return build_shells(std::move(volume), emission, options, {});
+}
+
+BuiltShells build_shells(Volume&& volume, const EmissionMap& emission, const BuildOptions& options,
+                         const SurfaceSink& sink) {
   std::optional<Volume> kept(std::move(volume));
-  return build(*kept, emission, options, [&] { kept.reset(); });
+  return build(*kept, emission, options, sink, [&] { kept.reset(); });
 }
 
 }  // namespace nacre

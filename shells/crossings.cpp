@@ -1,13 +1,15 @@
 #include "shells/crossings.h"
 
-#include <tbb/parallel_for.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
 
 #include <algorithm>
 #include <array>
-#include <unordered_map>
+#include <bit>
+#include <cstdint>
 
 #include "core/quantization_grid.h"
-#include "shells/field_bounds.h"
+#include "shells/border_planes.h"
 
 namespace nacre {
 namespace {
@@ -67,25 +69,6 @@ bool cross(const GridTriangle& s, const GridTriangle& t) {
   return is_on_both_sides(of_s) && (side_meets(s, of_s, t) || side_meets(t, of_t, s));
 }
 
-/// A surface in grid coordinates.
-class GridSurface {
- public:
-  GridSurface(const TriangleMesh& mesh, const QuantizationGrid& grid) : mesh_(mesh) {
-    points_.reserve(mesh.positions.size());
-    for (const glm::vec3& p : mesh.positions) points_.push_back(nearest_index(grid, p));
-  }
-
-  std::uint32_t size() const { return static_cast<std::uint32_t>(mesh_.triangles.size()); }
-  GridTriangle triangle(std::uint32_t t) const {
-    const glm::uvec3& corners = mesh_.triangles[t];
-    return {points_[corners.x], points_[corners.y], points_[corners.z]};
-  }
-
- private:
-  const TriangleMesh& mesh_;
-  std::vector<glm::ivec3> points_;
-};
-
 struct Box {
   glm::ivec3 lo;
   glm::ivec3 hi;
@@ -100,126 +83,116 @@ bool overlap(const Box& a, const Box& b) {
          a.lo.z <= b.hi.z && b.lo.z <= a.hi.z;
 }
 
-/// Some triangles of a surface by the cells of a coarse lattice that their boxes reach.
-class CellTable {
- public:
-  CellTable(const GridSurface& surface, const std::vector<std::uint32_t>& chosen)
-      : surface_(surface) {
-    for (const std::uint32_t t : chosen) {
-      const Box box = box_of(surface.triangle(t));
-      for_each_cell(box, [&](std::uint64_t cell) { cells_[cell].push_back(t); });
+constexpr int kCellBits = 6;  // cells of 64 steps: a smallest spacing or less
+
+/// Calls `visit(cell)` with every cell that a box reaches.
+template <class Visit>
+void for_each_cell(const Box& box, Visit&& visit) {
+  for (int z = box.lo.z >> kCellBits; z <= box.hi.z >> kCellBits; ++z) {
+    for (int y = box.lo.y >> kCellBits; y <= box.hi.y >> kCellBits; ++y) {
+      for (int x = box.lo.x >> kCellBits; x <= box.hi.x >> kCellBits; ++x)
+        visit(glm::ivec3(x, y, z));
     }
   }
-
-  /// Calls `visit` once with every triangle whose box meets that one.
-  template <class Visit>
-  void near(const Box& box, Visit&& visit) const {
-    for_each_cell(box, [&](std::uint64_t cell) {
-      const auto found = cells_.find(cell);
-      if (found == cells_.end()) return;
-      for (const std::uint32_t t : found->second) {
-        const Box other = box_of(surface_.triangle(t));
-        // Pairs are met in every cell they share: in the lowest only they count.
-        if (overlap(box, other) && key(glm::max(box.lo, other.lo)) == cell) visit(t);
-      }
-    });
-  }
-
- private:
-  static constexpr int kCellBits = 6;  // 64 steps: a spacing or less
-
-  static std::uint64_t key(const glm::ivec3& p) {
-    const auto part = [](int index) { return static_cast<std::uint64_t>(index >> kCellBits); };
-    return part(p.x) | part(p.y) << 20U | part(p.z) << 40U;
-  }
-
-  template <class Visit>
-  static void for_each_cell(const Box& box, Visit&& visit) {
-    constexpr int kCell = 1 << kCellBits;
-    const glm::ivec3 lo = box.lo / kCell;
-    const glm::ivec3 hi = box.hi / kCell;
-    for (int z = lo.z; z <= hi.z; ++z) {
-      for (int y = lo.y; y <= hi.y; ++y) {
-        for (int x = lo.x; x <= hi.x; ++x) visit(key(glm::ivec3(x, y, z) * kCell));
-      }
-    }
-  }
-
-  const GridSurface& surface_;
-  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;
-};
-
-/// Pairs of a chosen triangle of `a` and any of `b`, those of `b` left out that are `excluded`
-/// (ascending).
-std::size_t count_pairs(const GridSurface& a, const std::vector<std::uint32_t>& chosen,
-                        const GridSurface& b, const std::vector<std::uint32_t>& excluded) {
-  if (chosen.empty()) return 0;
-  const CellTable table(a, chosen);
-  std::size_t pairs = 0;
-  auto next_excluded = excluded.begin();
-  for (std::uint32_t t = 0; t < b.size(); ++t) {
-    if (next_excluded != excluded.end() && *next_excluded == t) {
-      ++next_excluded;
-      continue;
-    }
-    const GridTriangle triangle = b.triangle(t);
-    table.near(box_of(triangle), [&](std::uint32_t s) {
-      if (cross(a.triangle(s), triangle)) ++pairs;
-    });
-  }
-  return pairs;
 }
 
-std::vector<NeighbourCrossings> neighbours(const ShellSet& set,
-                                           const std::vector<StrayTriangles>& strays) {
-  std::vector<NeighbourCrossings> list;
-  std::size_t outer = set.shells.size();
-  for (std::size_t k = 0; k < set.shells.size(); ++k) {
-    if (set.shells[k].surface.triangles.empty()) continue;
-    if (outer < k) list.push_back({outer, k, strays[outer].hi < strays[k].lo, 0});
-    outer = k;
-  }
-  return list;
+std::size_t hash_of(const glm::ivec3& cell) {
+  const auto part = [](int index) { return static_cast<std::uint64_t>(index); };
+  const std::uint64_t key = part(cell.x) | part(cell.y) << 20U | part(cell.z) << 40U;
+  return static_cast<std::size_t>((key * 0x9E3779B97F4A7C15ULL) >> 24U);
 }
 
 }  // namespace
 
-StrayTriangles find_stray_triangles(const TriangleMesh& surface, const TrilinearField& field,
-                                    const EmissionMap& emission, double below, double above,
-                                    double step_mm) {
-  StrayTriangles strays;
-  const double border = border_voxels(field, step_mm);
-  for (std::uint32_t t = 0; t < surface.triangles.size(); ++t) {
-    const glm::uvec3& corners = surface.triangles[t];
-    const glm::dvec3 a(surface.positions[corners.x]);
-    const glm::dvec3 b(surface.positions[corners.y]);
-    const glm::dvec3 c(surface.positions[corners.z]);
-    if (is_cap(field, a, b, c, border)) continue;
-    const ValueBounds values = value_bounds(field, field.voxel_from_local(a),
-                                            field.voxel_from_local(b), field.voxel_from_local(c));
-    const double lo = emission(values.lo);
-    const double hi = emission(values.hi);
-    strays.lo = std::min(strays.lo, lo);
-    strays.hi = std::max(strays.hi, hi);
-    if (hi >= above) strays.inwards.push_back(t);
-    if (lo <= below) strays.outwards.push_back(t);
+/// A surface in grid coordinates, its triangles by the cells they reach. Cells share slots of a
+/// table where their hashes do.
+class CrossingCounter::Surface {
+ public:
+  Surface(const TriangleMesh& mesh, const ShellSet& set) {
+    const BorderPlanes border(set);
+    std::vector<glm::ivec3> points;
+    points.reserve(mesh.positions.size());
+    for (const glm::vec3& p : mesh.positions) points.push_back(nearest_index(*set.grid, p));
+    triangles_.reserve(mesh.triangles.size());
+    for (const glm::uvec3& t : mesh.triangles) {
+      if (border.hold_triangle(mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z])) {
+        continue;
+      }
+      triangles_.push_back({points[t.x], points[t.y], points[t.z]});
+    }
+    fill_table();
   }
-  return strays;
-}
 
-std::vector<NeighbourCrossings> count_crossings(const ShellSet& set,
-                                                const std::vector<StrayTriangles>& strays) {
-  std::vector<NeighbourCrossings> list = neighbours(set, strays);
-  tbb::parallel_for(std::size_t{0}, list.size(), [&](std::size_t i) {
-    NeighbourCrossings& pair = list[i];
-    if (pair.impossible) return;
-    const GridSurface outer(set.shells[pair.outer].surface, *set.grid);
-    const GridSurface inner(set.shells[pair.inner].surface, *set.grid);
-    const std::vector<std::uint32_t>& inwards = strays[pair.outer].inwards;
-    pair.pairs = count_pairs(outer, inwards, inner, {}) +
-                 count_pairs(inner, strays[pair.inner].outwards, outer, inwards);
-  });
-  return list;
+  const std::vector<GridTriangle>& triangles() const { return triangles_; }
+
+  /// How many triangles cross that one.
+  std::size_t crossings(const GridTriangle& triangle) const {
+    const Box box = box_of(triangle);
+    std::size_t count = 0;
+    for_each_cell(box, [&](const glm::ivec3& cell) {
+      const std::size_t slot = hash_of(cell) & mask_;
+      for (std::size_t i = begin_[slot]; i < end_[slot]; ++i) {
+        const GridTriangle& other = triangles_[entries_[i]];
+        const Box other_box = box_of(other);
+        // Pairs meet in every cell they share: in the lowest only they count.
+        const glm::ivec3 lowest = glm::max(box.lo, other_box.lo);
+        const glm::ivec3 lowest_cell(lowest.x >> kCellBits, lowest.y >> kCellBits,
+                                     lowest.z >> kCellBits);
+        if (overlap(box, other_box) && lowest_cell == cell && cross(other, triangle)) ++count;
+      }
+    });
+    return count;
+  }
+
+ private:
+  /// Counts, then places.
+  void fill_table() {
+    mask_ = std::bit_ceil(2 * triangles_.size() + 1) - 1;
+    begin_.assign(mask_ + 2, 0);
+    for (const GridTriangle& t : triangles_) {
+      for_each_cell(box_of(t),
+                    [&](const glm::ivec3& cell) { ++begin_[(hash_of(cell) & mask_) + 1]; });
+    }
+    for (std::size_t slot = 1; slot < begin_.size(); ++slot) begin_[slot] += begin_[slot - 1];
+    entries_.resize(begin_.back());
+    end_.assign(begin_.begin(), begin_.end() - 1);
+    for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
+      for_each_cell(box_of(triangles_[t]), [&](const glm::ivec3& cell) {
+        const std::size_t slot = hash_of(cell) & mask_;
+        const std::uint32_t end = end_[slot];
+        // Once a slot, also where several of its cells share that.
+        if (end == begin_[slot] || entries_[end - 1] != t) entries_[end_[slot]++] = t;
+      });
+    }
+  }
+
+  std::vector<GridTriangle> triangles_;  ///< caps left out
+  std::size_t mask_ = 0;
+  std::vector<std::uint32_t> begin_;  ///< of each slot in `entries_`
+  std::vector<std::uint32_t> end_;
+  std::vector<std::uint32_t> entries_;
+};
+
+CrossingCounter::CrossingCounter(const ShellSet& set) : set_(set) {}
+CrossingCounter::~CrossingCounter() = default;
+
+void CrossingCounter::add(std::size_t shell, const TriangleMesh& surface) {
+  auto inner = std::make_unique<const Surface>(surface, set_);
+  if (outer_) {
+    const std::vector<GridTriangle>& triangles = inner->triangles();
+    const std::size_t pairs = tbb::parallel_reduce(
+        tbb::blocked_range<std::size_t>(0, triangles.size(), 1024), std::size_t{0},
+        [&](const auto& range, std::size_t count) {
+          for (std::size_t t = range.begin(); t < range.end(); ++t) {
+            count += outer_->crossings(triangles[t]);
+          }
+          return count;
+        },
+        std::plus<>());
+    result_.push_back({outer_shell_, shell, pairs});
+  }
+  outer_ = std::move(inner);
+  outer_shell_ = shell;
 }
 
 }  // namespace nacre

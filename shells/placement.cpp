@@ -157,7 +157,8 @@ MaximumHistogram maximum_histogram(const ExactWalk& walk, const BoundingSphere& 
   ProgressMeter progress(options.progress, "directions",
                          static_cast<std::size_t>(options.directions));
   for (int i = 0; i < options.directions; ++i) {
-    const Image image = exact_picture(walk, make_camera(direction_camera(options, i), sphere));
+    const Image image =
+        exact_picture(walk, make_camera(direction_camera(options, i), sphere)).volume;
     for (const float pixel : image.pixels) {
       if (pixel > 0.0F) lit.push_back(pixel);
     }

@@ -11,20 +11,6 @@
 namespace nacre {
 namespace {
 
-/// An island that was left out, and what the shells around it still show in its place.
-struct LostIsland {
-  glm::vec3 lo;
-  glm::vec3 hi;
-  double shown = 0.0;
-};
-
-/// What was left out of one shell.
-struct ShellPruning {
-  ComponentCount specks;
-  ComponentCount inner;
-  std::vector<LostIsland> islands;
-};
-
 void add(ComponentCount& count, const Component& component) {
   ++count.components;
   count.triangles += component.triangles;
@@ -57,30 +43,10 @@ TriangleMesh kept_part(const TriangleMesh& mesh, const Components& components,
   return kept;
 }
 
-ShellPruning prune_shell(TriangleMesh& mesh, const PruneOptions& options) {
-  ShellPruning pruning;
-  const Components components = find_components(mesh);
-  const std::vector<bool> inner = options.prune_inner ? inner_components(mesh, components)
-                                                      : std::vector<bool>(components.list.size());
-  std::vector<bool> gone(components.list.size(), false);
-  for (std::size_t k = 0; k < gone.size(); ++k) {
-    const Component& component = components.list[k];
-    const bool speck = std::abs(component.volume_mm3) < options.min_component_mm3;
-    gone[k] = speck || inner[k];
-    if (!gone[k]) continue;
-    add(inner[k] ? pruning.inner : pruning.specks, component);
-    if (!inner[k] && component.volume_mm3 > 0.0) {
-      pruning.islands.push_back({component.lo, component.hi});
-    }
-  }
-  if (std::find(gone.begin(), gone.end(), true) != gone.end()) {
-    mesh = kept_part(mesh, components, gone);
-  }
-  return pruning;
-}
+}  // namespace
 
 /// Finds the lost islands of one shell around a point.
-class LostIslands {
+class Pruner::LostIslands {
  public:
   explicit LostIslands(std::vector<LostIsland> islands) : islands_(std::move(islands)) {
     std::sort(islands_.begin(), islands_.end(),
@@ -108,41 +74,65 @@ class LostIslands {
   float widest_ = 0.0F;
 };
 
+Pruner::Pruner(std::size_t shells, const PruneOptions& options)
+    : options_(options), shells_(shells) {}
+
+TriangleMesh Pruner::prune(std::size_t k, TriangleMesh&& surface) {
+  TriangleMesh mesh = std::move(surface);
+  if (options_.min_component_mm3 <= 0.0 && !options_.prune_inner) return mesh;
+  ShellPruning& pruning = shells_[k];
+  const Components components = find_components(mesh);
+  const std::vector<bool> inner = options_.prune_inner ? inner_components(mesh, components)
+                                                       : std::vector<bool>(components.list.size());
+  std::vector<bool> gone(components.list.size(), false);
+  for (std::size_t i = 0; i < gone.size(); ++i) {
+    const Component& component = components.list[i];
+    gone[i] = inner[i] || std::abs(component.volume_mm3) < options_.min_component_mm3;
+    if (!gone[i]) continue;
+    add(inner[i] ? pruning.inner : pruning.specks, component);
+    if (!inner[i] && component.volume_mm3 > 0.0) {
+      pruning.islands.push_back({component.lo, component.hi, 0.0});
+    }
+  }
+  if (std::find(gone.begin(), gone.end(), true) == gone.end()) return mesh;
+  return kept_part(mesh, components, gone);
+}
+
 /// From the outermost shell inwards: an island in a lost island shows what that one shows, another
 /// the layer of the shell around it.
-double largest_loss(const ShellSet& set, std::vector<ShellPruning>& shells) {
+double Pruner::largest_loss(const ShellSet& set) const {
   double largest = 0.0;
   LostIslands outer({});
-  for (std::size_t k = 0; k < shells.size(); ++k) {
+  for (std::size_t k = 0; k < shells_.size(); ++k) {
     const double layer = k > 0 ? set.shells[k - 1].representative : 0.0;
-    for (LostIsland& island : shells[k].islands) {
+    std::vector<LostIsland> islands = shells_[k].islands;
+    for (LostIsland& island : islands) {
       island.shown = outer.shown_at(0.5F * (island.lo + island.hi), layer);
       largest = std::max(largest, set.shells[k].representative - island.shown);
     }
-    outer = LostIslands(std::move(shells[k].islands));
+    outer = LostIslands(std::move(islands));
   }
   return largest;
 }
 
-}  // namespace
-
-Pruning prune(ShellSet& set, const PruneOptions& options) {
+Pruning Pruner::result(const ShellSet& set) const {
   Pruning pruning;
-  pruning.min_component_mm3 = options.min_component_mm3;
-  pruning.inner_pruned = options.prune_inner;
-  if (options.min_component_mm3 <= 0.0 && !options.prune_inner) return pruning;
-  std::vector<ShellPruning> shells(set.shells.size());
-  ProgressMeter progress(options.progress, "prune", shells.size());
-  tbb::parallel_for(std::size_t{0}, shells.size(), [&](std::size_t k) {
-    shells[k] = prune_shell(set.shells[k].surface, options);
-    progress.advance();
-  });
-  for (const ShellPruning& shell : shells) {
+  pruning.min_component_mm3 = options_.min_component_mm3;
+  pruning.inner_pruned = options_.prune_inner;
+  for (const ShellPruning& shell : shells_) {
     add(pruning.specks, shell.specks);
     add(pruning.inner, shell.inner);
   }
-  pruning.largest_emission = largest_loss(set, shells);
+  pruning.largest_emission = largest_loss(set);
   return pruning;
+}
+
+Pruning prune(ShellSet& set, const PruneOptions& options) {
+  Pruner pruner(set.shells.size(), options);
+  tbb::parallel_for(std::size_t{0}, set.shells.size(), [&](std::size_t k) {
+    set.shells[k].surface = pruner.prune(k, std::move(set.shells[k].surface));
+  });
+  return pruner.result(set);
 }
 
 }  // namespace nacre

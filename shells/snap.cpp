@@ -113,7 +113,7 @@ void Snapper::separate_coincident_vertices() {
   occupied_.reserve(mesh_.vertex_count() - report_.collapsed_edges);
   std::vector<std::uint32_t> homeless;
   for (std::uint32_t v = 0; v < points_.size(); ++v) {
-    if (is_alive(v) && !occupied_.take(points_[v], v)) homeless.push_back(v);
+    if (is_alive(v) && !occupied_.take(points_[v])) homeless.push_back(v);
   }
   std::erase_if(homeless, [&](std::uint32_t v) { return merge_with_neighbour(v); });
   for (const std::uint32_t v : homeless) {
@@ -142,7 +142,7 @@ bool Snapper::merge_with_neighbour(std::uint32_t v) {
 
 bool Snapper::move_to_free_point(std::uint32_t v, int reach) {
   for (const GridIndex& point : occupied_.around(points_[v], reach, target(v))) {
-    if (!occupied_.take(point, v)) continue;
+    if (!occupied_.take(point)) continue;
     points_[v] = point;
     return true;
   }
@@ -219,7 +219,7 @@ bool Snapper::nudge(std::uint32_t v, int reach) {
     points_[v] = point;
     if (has_flat_triangle(v)) continue;
     occupied_.release(before);
-    occupied_.take(point, v);
+    occupied_.take(point);
     ++report_.moved_vertices;
     return true;
   }
@@ -275,12 +275,19 @@ void Snapper::drop_vanished_components() {
 SnappedSurface Snapper::take() const {
   SnappedSurface result;
   result.report = report_;
+  std::size_t triangles = 0;
   std::vector<std::uint32_t> number(mesh_.vertex_count(), ClosedMesh::kNone);
   for (std::size_t t = 0; t < mesh_.triangle_count(); ++t) {
     if (!mesh_.is_alive(t)) continue;
     const glm::uvec3 corners = mesh_.triangle(t);
     for (int i = 0; i < 3; ++i) number[corners[i]] = 0;
+    ++triangles;
   }
+  // Exactly as large as needed: all shells may stand in memory side by side.
+  result.mesh.positions.reserve(
+      number.size() -
+      static_cast<std::size_t>(std::count(number.begin(), number.end(), ClosedMesh::kNone)));
+  result.mesh.triangles.reserve(triangles);
   for (std::uint32_t v = 0; v < number.size(); ++v) {
     if (number[v] == ClosedMesh::kNone) continue;
     number[v] = static_cast<std::uint32_t>(result.mesh.positions.size());

@@ -5,12 +5,12 @@
 
 #include <algorithm>
 #include <functional>
-#include <glm/matrix.hpp>
 #include <limits>
 
 #include "core/quantization_grid.h"
 #include "core/volume_geometry.h"
 #include "extract/marching_cubes.h"
+#include "shells/border_planes.h"
 #include "shells/prune.h"
 #include "shells/triangle_tree.h"
 
@@ -34,53 +34,6 @@ std::size_t positions_off_grid(const ShellSet& set, std::size_t k) {
       std::count_if(positions.begin(), positions.end(),
                     [&](const glm::vec3& p) { return !is_on(*set.grid, p); }));
 }
-
-/// Tells the border planes of a set's volume, where all shells are capped.
-class BorderPlanes {
- public:
-  explicit BorderPlanes(const ShellSet& set) : box_(voxel_box(set.volume.dims)) {
-    // The translation never enters, as in `TrilinearField`.
-    glm::dmat4 local_from_voxel(glm::dmat3(set.volume.world_from_voxel));
-    const glm::dvec3 center = 0.5 * (box_.lo + box_.hi);
-    local_from_voxel[3] = glm::dvec4(-glm::dvec3(local_from_voxel * glm::dvec4(center, 0.0)), 1.0);
-    voxel_from_local_ = glm::inverse(local_from_voxel);
-    // Snapping moves a vertex of a border plane by up to half a step along each axis.
-    const double half_step = set.grid ? 0.5 * step_mm(*set.grid) : 0.0;
-    for (int axis = 0; axis < 3; ++axis) {
-      const glm::dvec3 moved = half_step * glm::abs(glm::dvec3(voxel_from_local_[axis]));
-      border_ += std::max({moved.x, moved.y, moved.z});
-    }
-  }
-
-  bool contain(const glm::vec3& p_mm) const { return planes_at(p_mm) != 0; }
-
-  /// A surface without its caps.
-  TriangleMesh without_caps(const TriangleMesh& mesh) const {
-    TriangleMesh open{mesh.positions, {}};
-    for (const glm::uvec3& t : mesh.triangles) {
-      const unsigned all = planes_at(mesh.positions[t.x]) & planes_at(mesh.positions[t.y]) &
-                           planes_at(mesh.positions[t.z]);
-      if (all == 0) open.triangles.push_back(t);
-    }
-    return open;
-  }
-
- private:
-  /// A bit a plane.
-  unsigned planes_at(const glm::vec3& p_mm) const {
-    const glm::dvec3 p(voxel_from_local_ * glm::dvec4(p_mm, 1.0));
-    unsigned planes = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-      if (p[axis] <= box_.lo[axis] + border_) planes |= 1U << (2 * axis);
-      if (p[axis] >= box_.hi[axis] - border_) planes |= 2U << (2 * axis);
-    }
-    return planes;
-  }
-
-  VoxelBox box_;
-  glm::dmat4 voxel_from_local_{1.0};
-  double border_ = kOnBorderVoxels;
-};
 
 double least_distance(const TriangleMesh& from, const TriangleTree& to, const BorderPlanes& border,
                       double least) {

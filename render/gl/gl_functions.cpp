@@ -26,6 +26,7 @@ void load_objects(GlFunctions& gl, const GlContext& context) {
   gl.bind_buffer = load<PFNGLBINDBUFFERPROC>(context, "glBindBuffer");
   gl.bind_framebuffer = load<PFNGLBINDFRAMEBUFFERPROC>(context, "glBindFramebuffer");
   gl.bind_renderbuffer = load<PFNGLBINDRENDERBUFFERPROC>(context, "glBindRenderbuffer");
+  gl.bind_texture = load<PFNGLBINDTEXTUREPROC>(context, "glBindTexture");
   gl.bind_vertex_array = load<PFNGLBINDVERTEXARRAYPROC>(context, "glBindVertexArray");
   gl.buffer_data = load<PFNGLBUFFERDATAPROC>(context, "glBufferData");
   gl.buffer_sub_data = load<PFNGLBUFFERSUBDATAPROC>(context, "glBufferSubData");
@@ -39,20 +40,27 @@ void load_objects(GlFunctions& gl, const GlContext& context) {
   gl.delete_program = load<PFNGLDELETEPROGRAMPROC>(context, "glDeleteProgram");
   gl.delete_renderbuffers = load<PFNGLDELETERENDERBUFFERSPROC>(context, "glDeleteRenderbuffers");
   gl.delete_shader = load<PFNGLDELETESHADERPROC>(context, "glDeleteShader");
+  gl.delete_textures = load<PFNGLDELETETEXTURESPROC>(context, "glDeleteTextures");
   gl.delete_vertex_arrays = load<PFNGLDELETEVERTEXARRAYSPROC>(context, "glDeleteVertexArrays");
   gl.framebuffer_renderbuffer =
       load<PFNGLFRAMEBUFFERRENDERBUFFERPROC>(context, "glFramebufferRenderbuffer");
+  gl.framebuffer_texture_2d =
+      load<PFNGLFRAMEBUFFERTEXTURE2DPROC>(context, "glFramebufferTexture2D");
   gl.gen_buffers = load<PFNGLGENBUFFERSPROC>(context, "glGenBuffers");
   gl.gen_framebuffers = load<PFNGLGENFRAMEBUFFERSPROC>(context, "glGenFramebuffers");
   gl.gen_renderbuffers = load<PFNGLGENRENDERBUFFERSPROC>(context, "glGenRenderbuffers");
+  gl.gen_textures = load<PFNGLGENTEXTURESPROC>(context, "glGenTextures");
   gl.gen_vertex_arrays = load<PFNGLGENVERTEXARRAYSPROC>(context, "glGenVertexArrays");
   gl.link_program = load<PFNGLLINKPROGRAMPROC>(context, "glLinkProgram");
   gl.renderbuffer_storage = load<PFNGLRENDERBUFFERSTORAGEPROC>(context, "glRenderbufferStorage");
   gl.shader_source = load<PFNGLSHADERSOURCEPROC>(context, "glShaderSource");
+  gl.tex_image_2d = load<PFNGLTEXIMAGE2DPROC>(context, "glTexImage2D");
+  gl.tex_parameteri = load<PFNGLTEXPARAMETERIPROC>(context, "glTexParameteri");
 }
 
 void load_state(GlFunctions& gl, const GlContext& context) {
-  gl.clear_depth = load<PFNGLCLEARDEPTHPROC>(context, "glClearDepth");
+  gl.active_texture = load<PFNGLACTIVETEXTUREPROC>(context, "glActiveTexture");
+  gl.blend_func = load<PFNGLBLENDFUNCPROC>(context, "glBlendFunc");
   gl.cull_face = load<PFNGLCULLFACEPROC>(context, "glCullFace");
   gl.depth_func = load<PFNGLDEPTHFUNCPROC>(context, "glDepthFunc");
   gl.depth_range = load<PFNGLDEPTHRANGEPROC>(context, "glDepthRange");
@@ -64,14 +72,23 @@ void load_state(GlFunctions& gl, const GlContext& context) {
   gl.front_face = load<PFNGLFRONTFACEPROC>(context, "glFrontFace");
   gl.pixel_storei = load<PFNGLPIXELSTOREIPROC>(context, "glPixelStorei");
   gl.read_buffer = load<PFNGLREADBUFFERPROC>(context, "glReadBuffer");
-  gl.uniform_matrix_4fv = load<PFNGLUNIFORMMATRIX4FVPROC>(context, "glUniformMatrix4fv");
   gl.use_program = load<PFNGLUSEPROGRAMPROC>(context, "glUseProgram");
   gl.vertex_attrib_pointer = load<PFNGLVERTEXATTRIBPOINTERPROC>(context, "glVertexAttribPointer");
   gl.viewport = load<PFNGLVIEWPORTPROC>(context, "glViewport");
 }
 
+void load_uniforms(GlFunctions& gl, const GlContext& context) {
+  gl.uniform_1f = load<PFNGLUNIFORM1FPROC>(context, "glUniform1f");
+  gl.uniform_1i = load<PFNGLUNIFORM1IPROC>(context, "glUniform1i");
+  gl.uniform_2fv = load<PFNGLUNIFORM2FVPROC>(context, "glUniform2fv");
+  gl.uniform_3fv = load<PFNGLUNIFORM3FVPROC>(context, "glUniform3fv");
+  gl.uniform_4fv = load<PFNGLUNIFORM4FVPROC>(context, "glUniform4fv");
+  gl.uniform_matrix_3fv = load<PFNGLUNIFORMMATRIX3FVPROC>(context, "glUniformMatrix3fv");
+  gl.uniform_matrix_4fv = load<PFNGLUNIFORMMATRIX4FVPROC>(context, "glUniformMatrix4fv");
+}
+
 void load_queries_and_drawing(GlFunctions& gl, const GlContext& context) {
-  gl.clear = load<PFNGLCLEARPROC>(context, "glClear");
+  gl.clear_buffer_fv = load<PFNGLCLEARBUFFERFVPROC>(context, "glClearBufferfv");
   gl.draw_elements_base_vertex =
       load<PFNGLDRAWELEMENTSBASEVERTEXPROC>(context, "glDrawElementsBaseVertex");
   gl.get_error = load<PFNGLGETERRORPROC>(context, "glGetError");
@@ -91,6 +108,7 @@ GlFunctions load_gl_functions(const GlContext& context) {
   GlFunctions gl{};
   load_objects(gl, context);
   load_state(gl, context);
+  load_uniforms(gl, context);
   load_queries_and_drawing(gl, context);
   return gl;
 }

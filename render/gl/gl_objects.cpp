@@ -54,6 +54,12 @@ GlRenderbuffer make_renderbuffer(const GlFunctions& gl) {
   return {gl, id};
 }
 
+GlTexture make_texture(const GlFunctions& gl) {
+  unsigned id = 0;
+  gl.gen_textures(1, &id);
+  return {gl, id};
+}
+
 GlProgram make_program(const GlFunctions& gl, const char* vertex_source,
                        const char* fragment_source) {
   const GlShader vertex = compile(gl, GL_VERTEX_SHADER, vertex_source);

@@ -39,6 +39,7 @@ inline void buffer(const GlFunctions& gl, unsigned id) { gl.delete_buffers(1, &i
 inline void vertex_array(const GlFunctions& gl, unsigned id) { gl.delete_vertex_arrays(1, &id); }
 inline void framebuffer(const GlFunctions& gl, unsigned id) { gl.delete_framebuffers(1, &id); }
 inline void renderbuffer(const GlFunctions& gl, unsigned id) { gl.delete_renderbuffers(1, &id); }
+inline void texture(const GlFunctions& gl, unsigned id) { gl.delete_textures(1, &id); }
 inline void program(const GlFunctions& gl, unsigned id) { gl.delete_program(id); }
 inline void shader(const GlFunctions& gl, unsigned id) { gl.delete_shader(id); }
 }  // namespace gl_delete
@@ -47,6 +48,7 @@ using GlBuffer = GlObject<gl_delete::buffer>;
 using GlVertexArray = GlObject<gl_delete::vertex_array>;
 using GlFramebuffer = GlObject<gl_delete::framebuffer>;
 using GlRenderbuffer = GlObject<gl_delete::renderbuffer>;
+using GlTexture = GlObject<gl_delete::texture>;
 using GlProgram = GlObject<gl_delete::program>;
 using GlShader = GlObject<gl_delete::shader>;
 
@@ -54,6 +56,7 @@ GlBuffer make_buffer(const GlFunctions& gl);
 GlVertexArray make_vertex_array(const GlFunctions& gl);
 GlFramebuffer make_framebuffer(const GlFunctions& gl);
 GlRenderbuffer make_renderbuffer(const GlFunctions& gl);
+GlTexture make_texture(const GlFunctions& gl);
 
 /// Compiles and links a program of a vertex and a fragment stage.
 /// @throws Error  Unsupported with the driver's log if it refuses

@@ -12,11 +12,10 @@
 #include <vector>
 
 #include "core/error.h"
-#include "render/gl/depth_target.h"
 #include "render/gl/gl_functions.h"
-#include "render/gl/max_pass.h"
+#include "render/gl/picture_drawing.h"
 #include "render/gl/shell_buffers.h"
-#include "render/projection.h"
+#include "render/gl/tool_buffers.h"
 
 namespace nacre {
 namespace {
@@ -34,15 +33,6 @@ Capabilities query_capabilities(const GlFunctions& gl) {
   return {std::min({kMaxTargetSide, renderbuffer, viewport[0], viewport[1]})};
 }
 
-/// Turns depths d = rank / n, in place, into the emission each rank stands for.
-void look_up(std::span<float> depths, const std::vector<float>& emission_of_rank) {
-  const auto ranks = static_cast<float>(emission_of_rank.size() - 1);
-  const float half = 0.5F;  // to the nearest; std::lround is a call a pixel
-  for (float& depth : depths) {
-    depth = emission_of_rank[static_cast<std::size_t>(depth * ranks + half)];
-  }
-}
-
 }  // namespace
 
 /// A context and all that was made in it. Members are destroyed last first, so that the context is
@@ -54,7 +44,7 @@ class GlRenderer::Drawing {
         current_(std::in_place, *opened_.context),
         gl_(load_gl_functions(*opened_.context)),
         capabilities_(query_capabilities(gl_)),
-        max_pass_(gl_) {
+        pictures_(gl_) {
     gl_.pixel_storei(GL_PACK_ALIGNMENT, 4);
     check_gl(gl_, "setting up");
     current_.reset();
@@ -68,77 +58,78 @@ class GlRenderer::Drawing {
     }
   }
 
-  void upload(const ShellSet& set, SceneFacts facts, std::span<const std::uint32_t> shells) {
+  void upload(const ShellSet& set, SceneFacts facts, std::span<const std::uint32_t> shells,
+              const UploadOptions& options) {
     const CurrentContext current(*opened_.context);
-    buffers_.reset();
+    shells_.reset();
+    tools_.reset();
     scene_ = {};  // what stays if there is no room for the new set
-    buffers_.emplace(gl_, set, shells);
+    shells_.emplace(gl_, set, shells, options.normals);
     scene_ = std::move(facts);
+    scene_.tools.clear();
   }
 
-  Image render(const Camera& camera, const Plan& plan) {
-    Image image = make_image(camera.size.x, camera.size.y);
+  void upload_tools(std::span<const Tool> tools) {
+    const CurrentContext current(*opened_.context);
+    tools_.reset();
+    scene_.tools.clear();
+    tools_.emplace(gl_, tools, scene_.center_mm);
+    for (const Tool& tool : tools) scene_.tools.push_back(tool_facts(tool, scene_.center_mm));
+  }
+
+  Picture render(const Camera& camera, const Plan& plan) {
+    check(plan);
     const CurrentContext current(*opened_.context);
     const Clock::time_point start = Clock::now();
-    frame_ = {};
-    for (const Pass& pass : plan.passes) check(pass);
-    if (!plan.passes.empty()) {
-      // The first tile is the largest; the others use a part of its target.
-      prepare_target({plan.tiles.front().width, plan.tiles.front().height}, plan.depth);
-      for (const PixelRect& tile : plan.tiles) draw_tile(camera, plan, tile, image);
-      look_up(image.pixels, plan.emission_of_rank);
-      check_gl(gl_, "drawing");
-    }
+    Picture picture =
+        pictures_.draw(camera, plan, {scene_.center_mm, pointer(shells_), pointer(tools_)});
+    frame_ = pictures_.stats();
     frame_.seconds = std::chrono::duration<double>(Clock::now() - start).count();
-    return image;
+    return picture;
   }
 
   const BackendInfo& info() const { return opened_.info; }
   const Capabilities& capabilities() const { return capabilities_; }
   const SceneFacts& scene() const { return scene_; }
   const FrameStats& frame() const { return frame_; }
-  std::size_t bytes() const { return buffers_ ? buffers_->bytes() : 0; }
+  std::size_t bytes() const {
+    return (shells_ ? shells_->bytes() : 0) + (tools_ ? tools_->bytes() : 0);
+  }
 
  private:
-  void check(const Pass& pass) const {
-    for (const ShellDraw& draw : pass.draws) {
-      if (!buffers_ || !buffers_->holds(draw.shell)) {
+  template <class Buffers>
+  static const Buffers* pointer(const std::optional<Buffers>& buffers) {
+    return buffers ? &*buffers : nullptr;
+  }
+
+  void check(const Plan& plan) const {
+    for (const Pass& pass : plan.passes) {
+      for (const ShellDraw& draw : pass.draws) {
+        if (!shells_ || !shells_->holds(draw.shell)) refuse("shell", draw.shell);
+      }
+      for (const std::uint32_t tool : pass.tools) {
+        if (!tools_ || !tools_->holds(tool)) refuse("tool", tool);
+      }
+      if (pass.kind == PassKind::Lit && !shells_->has_normals()) {
         throw Error(ErrorCode::BadArgument,
-                    fmt::format("shell {}: found in the plan, expected it uploaded before",
-                                draw.shell + 1));
+                    "lit shells: found none of their normals, expected them uploaded before");
       }
     }
   }
 
-  void draw_tile(const Camera& camera, const Plan& plan, const PixelRect& tile, Image& image) {
-    const glm::mat4 clip(clip_from_local(camera, scene_.center_mm, tile));
-    target_->begin({tile.width, tile.height});
-    for (const Pass& pass : plan.passes) {
-      max_pass_.draw(pass, *buffers_, clip, camera.perspective);
-      count(pass);
-    }
-    target_->read({tile.width, tile.height}, &image.at(tile.x, tile.y), image.width);
-  }
-
-  void count(const Pass& pass) {
-    frame_.passes += 1;
-    frame_.draws += pass.draws.size();
-    for (const ShellDraw& draw : pass.draws) frame_.triangles += draw.triangles;
-  }
-
-  void prepare_target(const glm::ivec2& size, DepthFormat format) {
-    if (target_ && target_->size() == size && target_->format() == format) return;
-    target_.reset();
-    target_.emplace(gl_, size, format);
+  [[noreturn]] static void refuse(std::string_view what, std::uint32_t index) {
+    throw Error(
+        ErrorCode::BadArgument,
+        fmt::format("{} {}: found in the plan, expected it uploaded before", what, index + 1));
   }
 
   OpenBackend opened_;
   std::optional<CurrentContext> current_;  // set while objects are made and destroyed
   GlFunctions gl_;
   Capabilities capabilities_;
-  MaxPass max_pass_;
-  std::optional<ShellBuffers> buffers_;
-  std::optional<DepthTarget> target_;
+  PictureDrawing pictures_;
+  std::optional<ShellBuffers> shells_;
+  std::optional<ToolBuffers> tools_;
   SceneFacts scene_;
   FrameStats frame_;
 };
@@ -152,14 +143,14 @@ const BackendInfo& GlRenderer::info() const noexcept { return drawing_->info(); 
 
 const Capabilities& GlRenderer::capabilities() const noexcept { return drawing_->capabilities(); }
 
-void GlRenderer::upload(const ShellSet& set) {
+void GlRenderer::upload(const ShellSet& set, const UploadOptions& options) {
   std::vector<std::uint32_t> all(set.shells.size());
   std::iota(all.begin(), all.end(), 0U);
-  drawing_->upload(set, scene_facts(set), all);
+  drawing_->upload(set, scene_facts(set), all, options);
 }
 
 void GlRenderer::upload(const ShellSet& set, const SceneFacts& facts,
-                        std::span<const std::uint32_t> shells) {
+                        std::span<const std::uint32_t> shells, const UploadOptions& options) {
   for (const std::uint32_t shell : shells) {
     if (shell >= set.shells.size() || shell >= facts.shells.size()) {
       throw Error(ErrorCode::BadArgument,
@@ -172,16 +163,18 @@ void GlRenderer::upload(const ShellSet& set, const SceneFacts& facts,
                               facts.shells[shell].triangles));
     }
   }
-  drawing_->upload(set, facts, shells);
+  drawing_->upload(set, facts, shells, options);
 }
+
+void GlRenderer::upload_tools(std::span<const Tool> tools) { drawing_->upload_tools(tools); }
 
 std::size_t GlRenderer::uploaded_bytes() const noexcept { return drawing_->bytes(); }
 
-Image GlRenderer::render(const Camera& camera, const RenderOptions& options) {
+Picture GlRenderer::render(const Camera& camera, const RenderOptions& options) {
   return render(camera, make_plan(drawing_->scene(), camera, options, capabilities()));
 }
 
-Image GlRenderer::render(const Camera& camera, const Plan& plan) {
+Picture GlRenderer::render(const Camera& camera, const Plan& plan) {
   return drawing_->render(camera, plan);
 }
 

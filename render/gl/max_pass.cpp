@@ -2,51 +2,94 @@
 
 #include <GL/glcorearb.h>
 
-#include <glm/gtc/type_ptr.hpp>
+#include <array>
+#include <string>
 
 namespace nacre {
 namespace {
 
-constexpr const char* kVertexSource = R"(#version 330 core
-layout(location = 0) in vec3 position_mm;
-uniform mat4 clip_from_local;
-void main() { gl_Position = clip_from_local * vec4(position_mm, 1.0); }
-)";
+// Where there is nothing to cut or write, the depth is all there is.
+constexpr const char* kFragmentSource = R"(
+uniform vec2 remap;   // depth at z = 0 and at z = 1
+uniform vec2 values;  // brightness there
+#ifdef COLOR
+out float brightness;
+#endif
 
-// The depth is all there is to write.
-constexpr const char* kFragmentSource = R"(#version 330 core
-void main() {}
+void main() {
+#if defined(SLAB) || defined(TOOLS)
+  if (outside_ray()) discard;
+#endif
+#ifdef DEPTH
+  gl_FragDepth = mix(remap.x, remap.y, depth_z());
+#endif
+#ifdef COLOR
+  brightness = mix(values.x, values.y, depth_z());
+#endif
+}
 )";
 
 }  // namespace
 
-MaxPass::MaxPass(const GlFunctions& gl)
-    : gl_(&gl),
-      program_(make_program(gl, kVertexSource, kFragmentSource)),
-      clip_from_local_(gl.get_uniform_location(program_.id(), "clip_from_local")) {}
-
-void MaxPass::set_faces(Faces faces) const {
-  if (faces == Faces::Both) {
-    gl_->disable(GL_CULL_FACE);
-    return;
-  }
-  gl_->enable(GL_CULL_FACE);
-  gl_->cull_face(faces == Faces::Front ? GL_BACK : GL_FRONT);
+MaxPass::Work MaxPass::work_for(const Pass& pass, const ShellDraw& draw, bool perspective) {
+  return {draw.cut_by_slab, draw.tools == ToolCut::Texture,
+          perspective && draw.depth_at_near != draw.depth_at_far, pass.kind == PassKind::MaxColor};
 }
 
-void MaxPass::draw(const Pass& pass, const ShellBuffers& shells, const glm::mat4& clip_from_local,
-                   bool perspective) const {
-  gl_->use_program(program_.id());
-  gl_->uniform_matrix_4fv(clip_from_local_, 1, GL_FALSE, glm::value_ptr(clip_from_local));
+const MaxPass::Program& MaxPass::program(const Work& work) {
+  const auto found = programs_.find(work);
+  if (found != programs_.end()) return found->second;
+  std::string defines;
+  if (work.cut_by_slab) defines += "#define SLAB\n";
+  if (work.compare_tools) defines += "#define TOOLS\n";
+  if (work.write_depth) defines += "#define DEPTH\n";
+  if (work.write_color) defines += "#define COLOR\n";
+  FrameProgram made(*gl_, kFragmentSource, defines);
+  const int remap = made.uniform("remap");
+  const int values = made.uniform("values");
+  return programs_.emplace(work, Program{std::move(made), remap, values}).first->second;
+}
+
+void MaxPass::use(const Work& work, const ShellDraw& draw, const TileFrame& tile) {
+  const Program& wanted = program(work);
+  if (used_ != &wanted) wanted.program.use(tile);
+  used_ = &wanted;
+  const std::array<float, 2> remap{static_cast<float>(draw.depth_at_far),
+                                   static_cast<float>(draw.depth_at_near)};
+  const std::array<float, 2> values{static_cast<float>(draw.value_at_far),
+                                    static_cast<float>(draw.value_at_near)};
+  gl_->uniform_2fv(wanted.remap, 1, remap.data());
+  gl_->uniform_2fv(wanted.values, 1, values.data());
+  // Depths written per fragment are final: the range only has to let them be.
+  work.write_depth ? gl_->depth_range(0.0, 1.0)
+                   : gl_->depth_range(draw.depth_at_near, draw.depth_at_far);
+}
+
+void MaxPass::draw_tools(const Pass& pass, const ShellDraw& draw, const ToolBuffers& tools,
+                         const TileFrame& tile) {
+  use({.write_depth = tile.perspective}, draw, tile);
+  gl_->draw_buffer(GL_NONE);
+  set_faces(*gl_, Faces::Both);
+  tools.bind();
+  for (const std::uint32_t tool : pass.tools) tools.draw(tool);
+  gl_->draw_buffer(GL_COLOR_ATTACHMENT0);
+}
+
+void MaxPass::draw(const Pass& pass, const ShellBuffers& shells, const ToolBuffers* tools,
+                   const TileFrame& tile) {
+  gl_->disable(GL_BLEND);
   gl_->enable(GL_DEPTH_TEST);
   gl_->depth_func(GL_GREATER);
-  gl_->front_face(GL_CW);  // y points down in clip coordinates
-  // An orthographic eye is infinitely far: nothing is behind it.
-  perspective ? gl_->disable(GL_DEPTH_CLAMP) : gl_->enable(GL_DEPTH_CLAMP);
+  set_near_plane(*gl_, tile.perspective);
+  used_ = nullptr;  // uniforms of another tile or picture
   shells.bind();
   for (const ShellDraw& draw : pass.draws) {
-    set_faces(draw.faces);
-    gl_->depth_range(draw.depth_at_near, draw.depth_at_far);
+    if (draw.tools == ToolCut::Passes && tools != nullptr) {
+      draw_tools(pass, draw, *tools, tile);
+      shells.bind();
+    }
+    use(work_for(pass, draw, tile.perspective), draw, tile);
+    set_faces(*gl_, draw.faces);
     shells.draw(draw.shell);
   }
 }

@@ -1,36 +1,58 @@
 #pragma once
 
-#include <glm/mat4x4.hpp>
+#include <map>
 
-#include "render/gl/gl_objects.h"
+#include "render/gl/frame_program.h"
 #include "render/gl/shell_buffers.h"
+#include "render/gl/tool_buffers.h"
 #include "render/plan.h"
 
 namespace nacre {
 
 /// Draws shells into a depth buffer under each shell's depth remap, the greatest depth winning
-/// ([H96] eqs 3 to 5).
+/// ([H96] eqs 3 to 5), and the tools under the same remap before a shell they may hide (section 4).
 ///
 /// The remap is the depth range: the viewport's affine map of depth after projection, clipping and
 /// division, depth_at_near for -1 and depth_at_far for 1. What the matrix form of [H96] has to keep
 /// in place (x, y, w, the near plane) is not touched, and a constant rank is written exactly: the
-/// map's slope is 0.
+/// map's slope is 0. In perspective depth after division is no linear function of eye depth, so a
+/// remap that is no constant is written per fragment.
 class MaxPass {
  public:
-  /// @throws Error  Unsupported if the driver refuses the program
-  explicit MaxPass(const GlFunctions& gl);
+  explicit MaxPass(const GlFunctions& gl) : gl_(&gl) {}
 
-  /// @param clip_from_local  as `nacre::clip_from_local` gives it, rounded
-  /// @param perspective      whether the matrix is a perspective one, with a near plane
-  void draw(const Pass& pass, const ShellBuffers& shells, const glm::mat4& clip_from_local,
-            bool perspective) const;
+  /// @param tools   what the pass's tools are drawn from; may be null where it has none
+  /// @throws Error  Unsupported if the driver refuses a program
+  void draw(const Pass& pass, const ShellBuffers& shells, const ToolBuffers* tools,
+            const TileFrame& tile);
 
  private:
-  void set_faces(Faces faces) const;
+  /// What a fragment has to do besides leaving its depth to the hardware.
+  struct Work {
+    bool cut_by_slab = false;
+    bool compare_tools = false;
+    bool write_depth = false;
+    bool write_color = false;
+
+    auto operator<=>(const Work&) const = default;
+  };
+
+  /// A program and where its own uniforms are.
+  struct Program {
+    FrameProgram program;
+    int remap;
+    int values;
+  };
+
+  static Work work_for(const Pass& pass, const ShellDraw& draw, bool perspective);
+  const Program& program(const Work& work);
+  void use(const Work& work, const ShellDraw& draw, const TileFrame& tile);
+  void draw_tools(const Pass& pass, const ShellDraw& draw, const ToolBuffers& tools,
+                  const TileFrame& tile);
 
   const GlFunctions* gl_;
-  GlProgram program_;
-  int clip_from_local_ = -1;
+  std::map<Work, Program> programs_;  // made when first needed
+  const Program* used_ = nullptr;
 };
 
 }  // namespace nacre

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/error.h"
+#include "render/vertex_normals.h"
 
 namespace nacre {
 namespace {
@@ -16,12 +17,13 @@ constexpr std::size_t kMost = std::numeric_limits<int>::max();
 }  // namespace
 
 ShellBuffers::ShellBuffers(const GlFunctions& gl, const ShellSet& set,
-                           std::span<const std::uint32_t> shells)
+                           std::span<const std::uint32_t> shells, bool normals)
     : gl_(&gl),
       parts_(set.shells.size()),
       array_(make_vertex_array(gl)),
       positions_(make_buffer(gl)),
       triangles_(make_buffer(gl)) {
+  if (normals) normals_ = make_buffer(gl);
   place(set, shells);
   copy(set);
 }
@@ -41,35 +43,45 @@ void ShellBuffers::place(const ShellSet& set, std::span<const std::uint32_t> she
     indices_ += 3 * surface.triangles.size();
     vertices_ += surface.positions.size();
   }
-  bytes_ = vertices_ * sizeof(glm::vec3) + indices_ * sizeof(std::uint32_t);
+  bytes_ = (normals_ ? 2 : 1) * vertices_ * sizeof(glm::vec3) + indices_ * sizeof(std::uint32_t);
+}
+
+void ShellBuffers::make_room(const GlBuffer& buffer, unsigned attribute) const {
+  gl_->bind_buffer(GL_ARRAY_BUFFER, buffer.id());
+  gl_->buffer_data(GL_ARRAY_BUFFER, static_cast<std::ptrdiff_t>(vertices_ * sizeof(glm::vec3)),
+                   nullptr, GL_STATIC_DRAW);
+  gl_->enable_vertex_attrib_array(attribute);
+  gl_->vertex_attrib_pointer(attribute, 3, GL_FLOAT, GL_FALSE, 0, nullptr);
+}
+
+void ShellBuffers::copy_vertices(const GlBuffer& buffer, const Part& part,
+                                 const std::vector<glm::vec3>& vertices) const {
+  const auto first = static_cast<std::size_t>(part.base_vertex);
+  gl_->bind_buffer(GL_ARRAY_BUFFER, buffer.id());
+  gl_->buffer_sub_data(GL_ARRAY_BUFFER, static_cast<std::ptrdiff_t>(first * sizeof(glm::vec3)),
+                       static_cast<std::ptrdiff_t>(vertices.size() * sizeof(glm::vec3)),
+                       vertices.data());
 }
 
 void ShellBuffers::copy(const ShellSet& set) {
   gl_->bind_vertex_array(array_.id());
-  gl_->bind_buffer(GL_ARRAY_BUFFER, positions_.id());
-  gl_->buffer_data(GL_ARRAY_BUFFER, static_cast<std::ptrdiff_t>(vertices_ * sizeof(glm::vec3)),
-                   nullptr, GL_STATIC_DRAW);
   gl_->bind_buffer(GL_ELEMENT_ARRAY_BUFFER, triangles_.id());
   gl_->buffer_data(GL_ELEMENT_ARRAY_BUFFER,
                    static_cast<std::ptrdiff_t>(indices_ * sizeof(std::uint32_t)), nullptr,
                    GL_STATIC_DRAW);
+  make_room(positions_, 0);
+  if (normals_) make_room(*normals_, 1);
   check_gl(*gl_, "room for the shells");
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     if (!parts_[i].held) continue;
     const TriangleMesh& surface = set.shells[i].surface;
-    const auto bytes = [](const auto& list) {
-      return static_cast<std::ptrdiff_t>(list.size() * sizeof(list[0]));
-    };
-    gl_->buffer_sub_data(GL_ARRAY_BUFFER,
-                         static_cast<std::ptrdiff_t>(
-                             static_cast<std::size_t>(parts_[i].base_vertex) * sizeof(glm::vec3)),
-                         bytes(surface.positions), surface.positions.data());
+    copy_vertices(positions_, parts_[i], surface.positions);
+    if (normals_) copy_vertices(*normals_, parts_[i], vertex_normals(surface));
     gl_->buffer_sub_data(GL_ELEMENT_ARRAY_BUFFER,
                          static_cast<std::ptrdiff_t>(parts_[i].first_index * sizeof(std::uint32_t)),
-                         bytes(surface.triangles), surface.triangles.data());
+                         static_cast<std::ptrdiff_t>(surface.triangles.size() * sizeof(glm::uvec3)),
+                         surface.triangles.data());
   }
-  gl_->enable_vertex_attrib_array(0);
-  gl_->vertex_attrib_pointer(0, 3, GL_FLOAT, GL_FALSE, 0, nullptr);
   check_gl(*gl_, "copying the shells");
 }
 

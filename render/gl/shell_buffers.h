@@ -2,6 +2,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <glm/vec3.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -13,13 +15,16 @@ namespace nacre {
 /// The shells of a set as one vertex and one index buffer: no state changes between shells.
 class ShellBuffers {
  public:
-  /// Copies the surfaces of these shells.
+  /// Copies the surfaces of these shells; with their smooth normals where they are to be lit.
   /// @throws std::bad_alloc  if the driver has no room for them
-  ShellBuffers(const GlFunctions& gl, const ShellSet& set, std::span<const std::uint32_t> shells);
+  ShellBuffers(const GlFunctions& gl, const ShellSet& set, std::span<const std::uint32_t> shells,
+               bool normals);
+
+  bool has_normals() const noexcept { return normals_.has_value(); }
 
   bool holds(std::uint32_t shell) const;
 
-  /// Bytes of vertices and indices.
+  /// Bytes of vertices, normals and indices.
   std::size_t bytes() const noexcept { return bytes_; }
 
   /// To be called before `draw`.
@@ -38,7 +43,10 @@ class ShellBuffers {
   };
 
   void place(const ShellSet& set, std::span<const std::uint32_t> shells);
+  void make_room(const GlBuffer& buffer, unsigned attribute) const;
   void copy(const ShellSet& set);
+  void copy_vertices(const GlBuffer& buffer, const Part& part,
+                     const std::vector<glm::vec3>& vertices) const;
 
   const GlFunctions* gl_;
   std::vector<Part> parts_;  // one a shell of the set
@@ -47,6 +55,7 @@ class ShellBuffers {
   std::size_t bytes_ = 0;
   GlVertexArray array_;
   GlBuffer positions_;
+  std::optional<GlBuffer> normals_;
   GlBuffer triangles_;
 };
 

@@ -2,12 +2,12 @@
 // other exception, no crash, no hang.
 #include <gtest/gtest.h>
 
-#include <random>
 #include <string>
 
 #include "core/error.h"
 #include "io/volume_reader.h"
 #include "io/volume_writer.h"
+#include "tests/support/damage.h"
 #include "tests/support/scratch_folder.h"
 #ifdef NACRE_WITH_ITK
 #include "tests/support/dicom_files.h"
@@ -16,44 +16,12 @@
 namespace nacre {
 namespace {
 
+using testing::Damage;
 using testing::read_bytes;
 using testing::ScratchFolder;
 
 constexpr int kTrials = 400;
 constexpr int kDicomTrials = 150;  // each starts two processes
-
-class Damage {
- public:
-  explicit Damage(unsigned seed) : random_(seed) {}
-
-  /// A copy with one to four changes, most of them near the start, where headers are.
-  std::string of(std::string bytes) {
-    if (below(4) == 0) return bytes.substr(0, below(bytes.size()));
-    const std::size_t changes = 1 + below(4);
-    for (std::size_t i = 0; i < changes && !bytes.empty(); ++i) {
-      const std::size_t end =
-          below(3) == 0 ? bytes.size() : std::min<std::size_t>(bytes.size(), 600);
-      change(bytes, below(end));
-    }
-    return bytes;
-  }
-
- private:
-  std::size_t below(std::size_t limit) { return random_() % std::max<std::size_t>(limit, 1); }
-
-  void change(std::string& bytes, std::size_t at) {
-    constexpr std::string_view text = "0123456789 \n=:.-xe%(),";
-    switch (below(5)) {
-      case 0: bytes[at] = static_cast<char>(bytes[at] ^ (1 << below(8))); break;
-      case 1: bytes[at] = text[below(text.size())]; break;
-      case 2: bytes.erase(at, 1 + below(20)); break;
-      case 3: bytes.insert(at, std::string(1 + below(12), text[below(10)])); break;
-      default: bytes[at] = static_cast<char>(random_()); break;
-    }
-  }
-
-  std::mt19937 random_;
-};
 
 /// Reads; true if that gave a volume. Anything but nacre::Error ends the test.
 bool reads(const std::filesystem::path& path) {

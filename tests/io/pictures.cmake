@@ -1,3 +1,3 @@
 nacre_test(io_pictures
-  SOURCES picture_file_test.cpp
+  SOURCES apng_picture_test.cpp picture_file_test.cpp
   LINK nacre::io_pictures ZLIB::ZLIB)

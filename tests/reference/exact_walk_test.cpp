@@ -3,20 +3,21 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <functional>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <random>
 
+#include "tests/support/extended_cell.h"
 #include "tests/support/fine_march.h"
 #include "tests/support/test_volumes.h"
 
 namespace nacre {
 namespace {
 
+using testing::ExtendedCell;
 using testing::FineMarch;
+using testing::for_random_cells;
 using testing::random_volume;
 using testing::volume_of;
 
@@ -26,113 +27,13 @@ constexpr double kMarch = 8e-3;        // a march in steps of 0.002 voxels on wi
 
 Ray ray_through(const glm::dvec3& a, const glm::dvec3& b) { return {a, glm::normalize(b - a)}; }
 
-/// The trilinear field of a 2x2x2 volume along a ray, in extended precision.
-class ExtendedCell {
- public:
-  ExtendedCell(const Volume& volume, const Ray& ray) {
-    for (std::size_t i = 0; i < 8; ++i) corner_[i] = samples_as<double>(volume)[i];
-    for (int axis = 0; axis < 3; ++axis) {
-      origin_[axis] = ray.origin_mm[axis];
-      direction_[axis] = ray.direction[axis];
-    }
-    clip();
-  }
-
-  long double t_enter() const { return t_enter_; }
-  long double t_exit() const { return t_exit_; }
-
-  long double at(long double t) const {
-    long double value = 0.0L;
-    for (std::size_t i = 0; i < 8; ++i) {
-      long double weight = 1.0L;
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        const long double p = origin_[axis] + t * direction_[axis];
-        weight *= ((i >> axis) & 1) != 0 ? p : 1.0L - p;
-      }
-      value += weight * corner_[i];
-    }
-    return value;
-  }
-
-  /// A grid search, then golden-section-like thirds about its best point.
-  long double maximum() const {
-    constexpr int kSteps = 500;
-    const long double step = (t_exit_ - t_enter_) / kSteps;
-    int best = 0;
-    for (int i = 1; i <= kSteps; ++i) {
-      if (at(t_enter_ + i * step) > at(t_enter_ + best * step)) best = i;
-    }
-    long double lo = t_enter_ + std::max(best - 1, 0) * step;
-    long double hi = t_enter_ + std::min(best + 1, kSteps) * step;
-    for (int i = 0; i < 200; ++i) {
-      const long double a = lo + (hi - lo) / 3;
-      const long double b = hi - (hi - lo) / 3;
-      (at(a) < at(b) ? lo : hi) = at(a) < at(b) ? a : b;
-    }
-    return std::max({at(lo), at(t_enter_), at(t_exit_)});
-  }
-
-  /// Adaptive Simpson of a function of the field.
-  long double integral(const std::function<long double(long double)>& of) const {
-    const auto f = [&](long double t) { return of(at(t)); };
-    long double sum = 0.0L;
-    constexpr int kParts = 16;
-    for (int i = 0; i < kParts; ++i) {
-      const long double a = t_enter_ + (t_exit_ - t_enter_) * i / kParts;
-      const long double b = t_enter_ + (t_exit_ - t_enter_) * (i + 1) / kParts;
-      sum += simpson(f, a, b, f(a), f((a + b) / 2), f(b), 45);
-    }
-    return sum;
-  }
-
- private:
-  void clip() {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const long double a = (0.0L - origin_[axis]) / direction_[axis];
-      const long double b = (1.0L - origin_[axis]) / direction_[axis];
-      t_enter_ = std::max(t_enter_, std::min(a, b));
-      t_exit_ = std::min(t_exit_, std::max(a, b));
-    }
-  }
-
-  template <class F>
-  static long double simpson(const F& f, long double a, long double b, long double fa,
-                             long double fm, long double fb, int depth) {
-    const long double m = (a + b) / 2;
-    const long double fl = f((a + m) / 2);
-    const long double fr = f((m + b) / 2);
-    const long double whole = (b - a) / 6 * (fa + 4 * fm + fb);
-    const long double halves = (b - a) / 12 * (fa + 4 * fl + 2 * fm + 4 * fr + fb);
-    if (depth == 0 || std::abs(halves - whole) < 1e-16L) return halves;
-    return simpson(f, a, m, fa, fl, fm, depth - 1) + simpson(f, m, b, fm, fr, fb, depth - 1);
-  }
-
-  std::array<long double, 8> corner_{};
-  std::array<long double, 3> origin_{};
-  std::array<long double, 3> direction_{};
-  long double t_enter_ = -INFINITY;
-  long double t_exit_ = INFINITY;
-};
-
-/// Calls check(volume, ray) for random cells and rays that hit them.
-template <class Check>
-void for_random_cells(int trials, Check&& check) {
-  std::mt19937 random(7);
-  std::uniform_real_distribution<double> unit(0.0, 1.0);
-  for (int trial = 0; trial < trials; ++trial) {
-    const Volume cell = random_volume<double>({2, 2, 2}, 0.0, 1.0, static_cast<unsigned>(trial));
-    const glm::dvec3 inside(unit(random), unit(random), unit(random));
-    const glm::dvec3 outside(6.0 * unit(random) - 3.0, 6.0 * unit(random) - 3.0, -4.0);
-    check(cell, ray_through(outside, inside));
-  }
-}
-
 TEST(ExactWalk, MaximumOfRandomCellsMatchesExtendedPrecision) {
   const EmissionMap wide = EmissionMap::window(-1.0, 2.0);
   for_random_cells(300, [&](const Volume& cell, const Ray& ray) {
     const ExtendedCell extended(cell, ray);
     const ExactWalk walk(cell, wide);
-    const auto expected = static_cast<double>(extended.maximum());
+    const auto expected =
+        static_cast<double>(extended.maximum([](long double, long double value) { return value; }));
     EXPECT_NEAR(walk.max_value(ray), expected, kSingleCell);
     EXPECT_NEAR(walk.max_emission(ray), (expected + 1.0) / 3.0, kSingleCell);
   });
@@ -145,8 +46,8 @@ TEST(ExactWalk, IntegralOfRandomCellsMatchesExtendedPrecision) {
   for (const EmissionMap& map : {clamping, bent}) {
     for_random_cells(100, [&](const Volume& cell, const Ray& ray) {
       const ExtendedCell extended(cell, ray);
-      const auto expected = static_cast<double>(
-          extended.integral([&](long double value) { return map(static_cast<double>(value)); }));
+      const auto expected = static_cast<double>(extended.integral(
+          [&](long double, long double value) { return map(static_cast<double>(value)); }));
       EXPECT_NEAR(ExactWalk(cell, map).emission_integral(ray), expected, kSingleCell);
     });
   }

@@ -27,7 +27,7 @@ Camera camera(double azimuth_rad = 0.4) {
 
 Image draw_with(GlRenderer& renderer, double azimuth_rad = 0.4) {
   renderer.upload(ring_in_ball());
-  return renderer.render(camera(azimuth_rad));
+  return renderer.render(camera(azimuth_rad)).volume;
 }
 
 TEST(Backends, NamesAreRoundTrips) {
@@ -70,9 +70,9 @@ TEST(Backends, EglAndOsMesaAgreeSideBySide) {
   // Hardware may round corners to the pixel grid differently from Mesa's own renderer.
   const std::size_t silhouettes = egl.info().software ? 0 : 30;
   for (const double azimuth_rad : {0.0, 0.4, 1.1}) {
-    EXPECT_LE(
-        pixels_that_differ(egl.render(camera(azimuth_rad)), osmesa.render(camera(azimuth_rad))),
-        silhouettes);
+    EXPECT_LE(pixels_that_differ(egl.render(camera(azimuth_rad)).volume,
+                                 osmesa.render(camera(azimuth_rad)).volume),
+              silhouettes);
   }
 }
 
@@ -97,7 +97,7 @@ TEST(Backends, ARendererMayBeUsedFromAnotherThread) {
     auto renderer = std::make_unique<GlRenderer>(kind);
     const Image here = draw_with(*renderer);
     std::jthread([&] {
-      EXPECT_EQ(pixels_that_differ(renderer->render(camera()), here), 0U);
+      EXPECT_EQ(pixels_that_differ(renderer->render(camera()).volume, here), 0U);
       renderer.reset();
     }).join();
   }

@@ -143,7 +143,9 @@ TEST_F(GlMax, TilesJoinToTheSamePicture) {
         kSphere);
     const Image whole = draw(set, camera);
     const Image tiled =
-        renderer().render(camera, make_plan(scene_facts(set), camera, {}, {.max_target_side = 32}));
+        renderer()
+            .render(camera, make_plan(scene_facts(set), camera, {}, {.max_target_side = 32}))
+            .volume;
     EXPECT_EQ(renderer().last_frame().passes, 12U);
     EXPECT_LE(pixels_that_differ(whole, tiled), 10U);  // silhouettes, rounded differently
     expect_matches_rays(set, camera, tiled, {.every = 3});

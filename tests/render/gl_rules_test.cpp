@@ -82,7 +82,7 @@ TEST_F(GlRules, UploadsOnlyWhatIsDrawn) {
   set.shells[1].surface = {};  // as if never decoded
   set.shells[2].surface = {};
   renderer().upload(set, facts, shells_drawn(plan));
-  EXPECT_EQ(pixels_that_differ(image, renderer().render(camera, plan)), 0U);
+  EXPECT_EQ(pixels_that_differ(image, renderer().render(camera, plan).volume), 0U);
   EXPECT_EQ(2 * renderer().uploaded_bytes(), all_bytes);
 }
 

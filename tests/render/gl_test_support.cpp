@@ -13,18 +13,21 @@ namespace {
 
 const char* wanted_backend() { return std::getenv("NACRE_TEST_BACKEND"); }
 
-constexpr double kNearby = 1.0 / 32.0;
-constexpr std::array<glm::dvec2, 9> kOffsets{{{0, 0},
-                                              {kNearby, 0},
-                                              {-kNearby, 0},
-                                              {0, kNearby},
-                                              {0, -kNearby},
-                                              {kNearby, kNearby},
-                                              {kNearby, -kNearby},
-                                              {-kNearby, kNearby},
-                                              {-kNearby, -kNearby}}};
-
 }  // namespace
+
+std::span<const glm::dvec2> offsets_nearby() {
+  static constexpr double kNearby = 1.0 / 32.0;
+  static constexpr std::array<glm::dvec2, 9> kOffsets{{{0, 0},
+                                                       {kNearby, 0},
+                                                       {-kNearby, 0},
+                                                       {0, kNearby},
+                                                       {0, -kNearby},
+                                                       {kNearby, kNearby},
+                                                       {kNearby, -kNearby},
+                                                       {-kNearby, kNearby},
+                                                       {-kNearby, -kNearby}}};
+  return kOffsets;
+}
 
 Backend test_backend() {
   const char* wanted = wanted_backend();
@@ -57,7 +60,13 @@ void GlTest::SetUp() {
 void GlTest::TearDownTestSuite() { shared_renderer.reset(); }
 
 Image GlTest::draw(const ShellSet& set, const Camera& camera, const RenderOptions& options) {
-  shared_renderer->upload(set);
+  return draw_with({}, set, camera, options).volume;
+}
+
+Picture GlTest::draw_with(std::span<const Tool> tools, const ShellSet& set, const Camera& camera,
+                          const RenderOptions& options) {
+  shared_renderer->upload(set, {.normals = options.mode == PictureMode::Iso});
+  shared_renderer->upload_tools(tools);
   return shared_renderer->render(camera, options);
 }
 
@@ -72,11 +81,12 @@ void expect_matches_rays(const ShellSet& set, const Camera& camera, const Image&
     const int x = static_cast<int>(i) % image.width;
     const int y = static_cast<int>(i) / image.width;
     bool matches = false;
-    for (std::size_t k = 0; k < kOffsets.size() && !matches; ++k) {
-      const Ray ray = picture_ray(camera, x + 0.5 + kOffsets[k].x, y + 0.5 + kOffsets[k].y);
+    for (const glm::dvec2& offset : offsets_nearby()) {
+      const Ray ray = picture_ray(camera, x + 0.5 + offset.x, y + 0.5 + offset.y);
       const double truth = ray_maximum(set, ray, camera.perspective, check.hidden);
       matches = image.at(x, y) == static_cast<float>(truth);
-      if (!matches && k == 0) ++off_center;
+      if (matches) break;
+      if (offset == glm::dvec2(0.0)) ++off_center;
     }
     if (!matches && ++wrong <= 5) {
       ADD_FAILURE() << "pixel (" << x << ", " << y << ") shows " << image.at(x, y)

@@ -2,11 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <glm/vec2.hpp>
 #include <memory>
+#include <span>
 
 #include "core/camera.h"
 #include "core/image.h"
 #include "core/shell_set.h"
+#include "core/tool.h"
 #include "render/gl/gl_renderer.h"
 
 namespace nacre::testing {
@@ -25,8 +28,12 @@ class GlTest : public ::testing::Test {
   void SetUp() override;
   static void TearDownTestSuite();
 
-  /// Uploads the set and draws it.
+  /// Uploads the set and draws the volume.
   static Image draw(const ShellSet& set, const Camera& camera, const RenderOptions& options = {});
+
+  /// The same with tools: all that is seen.
+  static Picture draw_with(std::span<const Tool> tools, const ShellSet& set, const Camera& camera,
+                           const RenderOptions& options = {});
 
   static GlRenderer& renderer() { return *shared_renderer; }
 
@@ -46,6 +53,9 @@ struct RayCheck {
 /// point within 1/32 of a pixel (rasterisers round corners to 1/256).
 void expect_matches_rays(const ShellSet& set, const Camera& camera, const Image& image,
                          const RayCheck& check = {});
+
+/// Offsets from a pixel's centre by up to 1/32 pixel, none first.
+std::span<const glm::dvec2> offsets_nearby();
 
 /// Number of pixels in which two pictures of one size differ.
 std::size_t pixels_that_differ(const Image& a, const Image& b);

@@ -151,10 +151,10 @@ TEST(Plan, RefusesWrongOptions) {
                {.cue = {.b = std::numeric_limits<double>::quiet_NaN()}});
 }
 
-TEST(Plan, SaysWhatIsNotDrawnHere) {
-  expect_error(ErrorCode::Unsupported, scene(), {.mode = PictureMode::Sum});
-  expect_error(ErrorCode::Unsupported, scene(), {.cue = {.a = 0.5, .b = 0.5}});
-  expect_error(ErrorCode::Unsupported, scene(), {.slab = {.near_mm = 0.0}});
+TEST(Plan, RefusesEmptySlabsAndSumsInEightBits) {
+  expect_error(ErrorCode::BadArgument, scene(), {.slab = {.near_mm = 5.0, .far_mm = 5.0}});
+  expect_error(ErrorCode::BadArgument, scene(),
+               {.mode = PictureMode::Sum, .target = TargetFormat::U8});
 }
 
 TEST(Plan, RefusesMoreShellsThanTheDepthKeepsApart) {
@@ -178,6 +178,15 @@ TEST(SceneFacts, BoundsWhatItHolds) {
   EXPECT_EQ(facts.shells[0].bounds.lo, glm::dvec3(-1, 0, 0));
   EXPECT_EQ(facts.shells[0].bounds.hi, glm::dvec3(1, 5, 4));
   EXPECT_EQ(facts.shells[1].triangles, 0U);
+}
+
+TEST(RenderOptions, NamesAreRoundTrips) {
+  for (const char* wanted : {"8", "16f", "32f"}) EXPECT_EQ(name(*target_format(wanted)), wanted);
+  for (const char* wanted : {"auto", "passes", "texture"}) {
+    EXPECT_EQ(name(*occlusion(wanted)), wanted);
+  }
+  EXPECT_FALSE(target_format("16").has_value());
+  EXPECT_FALSE(occlusion("depth").has_value());
 }
 
 TEST(RenderOptions, DepthFormatsAreRoundTrips) {

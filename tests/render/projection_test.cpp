@@ -104,10 +104,8 @@ TEST(Projection, SeesNoBoxBehindAPerspectiveEye) {
     const glm::dvec3 from = camera.perspective ? eye_mm(camera) : camera.target_mm;
     const Box box = box_at(from - 40.0 * camera.forward);
     EXPECT_EQ(outside_view(camera, kOrigin, box), camera.perspective);
-    EXPECT_EQ(beyond_near_plane(camera, kOrigin, box), !camera.perspective);
     const Box around_the_eye = box_at(from);
     EXPECT_FALSE(outside_view(camera, kOrigin, around_the_eye));
-    EXPECT_EQ(beyond_near_plane(camera, kOrigin, around_the_eye), !camera.perspective);
   }
 }
 

@@ -144,6 +144,28 @@ TEST(Build, IsTheSameForAnyNumberOfThreads) {
   }
 }
 
+TEST(Build, GivesTheSameShellsOneByOne) {
+  BuildOptions options;
+  options.levels = explicit_levels(std::vector<double>{0.1, 0.3, 0.5, 1.0});
+  const EmissionMap emission = EmissionMap::window(0, 400);
+  for (const double tolerance : {0.0, 0.05}) {
+    options.emission_tolerance = tolerance;
+    options.scratch_folder = std::nullopt;
+    const BuiltShells whole = build_shells(ball(), emission, options);
+    options.scratch_folder = std::filesystem::temp_directory_path();
+    std::vector<TriangleMesh> taken(4);
+    const BuiltShells emptied = build_shells(
+        ball(), emission, options,
+        [&](const ShellSet&, std::size_t k, TriangleMesh&& mesh) { taken[k] = std::move(mesh); });
+    EXPECT_EQ(emptied.report.triangles, whole.report.triangles);
+    for (std::size_t k = 0; k < taken.size(); ++k) {
+      EXPECT_TRUE(emptied.set.shells[k].surface.triangles.empty());
+      EXPECT_EQ(taken[k].positions, whole.set.shells[k].surface.positions);
+      EXPECT_EQ(taken[k].triangles, whole.set.shells[k].surface.triangles);
+    }
+  }
+}
+
 TEST(Build, TellsItsProgress) {
   BuildOptions options;
   options.levels = uniform_levels(2);

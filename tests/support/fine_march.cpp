@@ -49,18 +49,25 @@ double FineMarch::emission_at(const glm::dvec3& p_mm) const {
   return emission_(volume_.slope * value + volume_.intercept);
 }
 
-double FineMarch::max_emission(const Ray& ray, double t_begin_mm, double t_end_mm) const {
+double FineMarch::weighted_emission_at(const glm::dvec3& p_mm, const Weight& weight) const {
+  const double emission = emission_at(p_mm);
+  return emission > 0.0 && weight ? emission * weight(p_mm) : emission;
+}
+
+double FineMarch::max_emission(const Ray& ray, double t_begin_mm, double t_end_mm,
+                               const Weight& weight) const {
   double best = 0.0;
   for (double t = t_begin_mm; t <= t_end_mm; t += step_mm_) {
-    best = std::max(best, emission_at(ray.origin_mm + t * ray.direction));
+    best = std::max(best, weighted_emission_at(ray.origin_mm + t * ray.direction, weight));
   }
   return best;
 }
 
-double FineMarch::emission_integral(const Ray& ray, double t_begin_mm, double t_end_mm) const {
+double FineMarch::emission_integral(const Ray& ray, double t_begin_mm, double t_end_mm,
+                                    const Weight& weight) const {
   double sum = 0.0;
   for (double t = t_begin_mm + 0.5 * step_mm_; t < t_end_mm; t += step_mm_) {
-    sum += emission_at(ray.origin_mm + t * ray.direction);
+    sum += weighted_emission_at(ray.origin_mm + t * ray.direction, weight);
   }
   return sum * step_mm_;
 }

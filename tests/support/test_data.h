@@ -13,10 +13,7 @@ namespace nacre::testing {
 inline std::optional<std::filesystem::path> test_data(const std::string& name) {
   const char* named = std::getenv("NACRE_TEST_DATA");
   std::filesystem::path folder = named != nullptr ? named : "";
-  if (folder.empty()) {
-    // This file is tests/support/test_data.h of the source tree.
-    folder = std::filesystem::path(__FILE__).parent_path() / "../../../shared/data";
-  }
+  if (folder.empty()) folder = std::filesystem::path(NACRE_SOURCE_DIR) / "../shared/data";
   std::error_code ignored;
   if (!std::filesystem::exists(folder / name, ignored)) return std::nullopt;
   return folder / name;

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "app/exact_command.h"
+#include "core/emission.h"
+#include "extract/levels.h"
+#include "reference/exact_picture.h"
+
+namespace nacre {
+
+/// What an exact picture shows of a volume and beside it, as flags say it.
+class ExactScene {
+ public:
+  /// Reads the tools.
+  /// @throws Error  for flags that are wrong, and tools that cannot be read
+  explicit ExactScene(const ExactFlags& flags);
+
+  /// Whether shells are shown: count, iso, and ideal shells.
+  bool shows_shells() const;
+
+  /// Works the levels out, where shells are shown.
+  /// @throws Error  BadArgument for flags that name no levels
+  void set_emission(const EmissionMap& emission);
+
+  /// What `exact_picture` or `ideal_picture` is asked for.
+  Picture draw(const ExactWalk& walk, const Camera& camera, const ProgressCallback& progress) const;
+
+  /// The levels shown, for machines: emission, value, representative; none without shells.
+  nlohmann::ordered_json level_figures() const;
+
+ private:
+  LevelFlags level_flags_;
+  bool ideal_ = false;
+  std::unique_ptr<const ToolRays> tools_;
+  std::vector<Level> levels_;
+  ExactPictureOptions options_;
+};
+
+}  // namespace nacre
