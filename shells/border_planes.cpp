@@ -1,6 +1,7 @@
 #include "shells/border_planes.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <glm/matrix.hpp>
 
 #include "core/quantization_grid.h"
@@ -23,14 +24,18 @@ BorderPlanes::BorderPlanes(const ShellSet& set)
   }
 }
 
-TriangleMesh BorderPlanes::without_caps(const TriangleMesh& mesh) const {
-  TriangleMesh open{mesh.positions, {}};
-  for (const glm::uvec3& t : mesh.triangles) {
-    if (!hold_triangle(mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z])) {
-      open.triangles.push_back(t);
-    }
+std::vector<glm::uvec3> BorderPlanes::triangles_off(const TriangleMesh& mesh) const {
+  std::vector<std::uint8_t> planes;
+  planes.reserve(mesh.positions.size());
+  for (const glm::vec3& p : mesh.positions) {
+    planes.push_back(static_cast<std::uint8_t>(planes_at(p)));
   }
-  return open;
+  std::vector<glm::uvec3> off;
+  off.reserve(mesh.triangles.size());
+  for (const glm::uvec3& t : mesh.triangles) {
+    if ((planes[t.x] & planes[t.y] & planes[t.z]) == 0) off.push_back(t);
+  }
+  return off;
 }
 
 unsigned BorderPlanes::planes_at(const glm::vec3& p_mm) const {

@@ -2,6 +2,7 @@
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
+#include <vector>
 
 #include "core/shell_set.h"
 
@@ -17,13 +18,13 @@ class BorderPlanes {
 
   bool contain(const glm::vec3& p_mm) const { return planes_at(p_mm) != 0; }
 
-  /// Whether a triangle lies in one of them.
-  bool hold_triangle(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) const {
-    return (planes_at(a) & planes_at(b) & planes_at(c)) != 0;
-  }
+  /// A surface's triangles without its caps: those that lie in one of the planes.
+  std::vector<glm::uvec3> triangles_off(const TriangleMesh& mesh) const;
 
   /// A surface without its caps.
-  TriangleMesh without_caps(const TriangleMesh& mesh) const;
+  TriangleMesh without_caps(const TriangleMesh& mesh) const {
+    return {mesh.positions, triangles_off(mesh)};
+  }
 
  private:
   /// A bit a plane.

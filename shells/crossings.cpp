@@ -78,28 +78,56 @@ Box box_of(const GridTriangle& t) {
   return {glm::min(glm::min(t[0], t[1]), t[2]), glm::max(glm::max(t[0], t[1]), t[2])};
 }
 
-bool overlap(const Box& a, const Box& b) {
-  return a.lo.x <= b.hi.x && b.lo.x <= a.hi.x && a.lo.y <= b.hi.y && b.lo.y <= a.hi.y &&
-         a.lo.z <= b.hi.z && b.lo.z <= a.hi.z;
-}
-
 constexpr int kCellBits = 6;  // cells of 64 steps: a smallest spacing or less
+constexpr int kCell = 1 << kCellBits;
+
+glm::ivec3 cell_of(const glm::ivec3& p) {
+  return {p.x >> kCellBits, p.y >> kCellBits, p.z >> kCellBits};
+}
 
 /// Calls `visit(cell)` with every cell that a box reaches.
 template <class Visit>
 void for_each_cell(const Box& box, Visit&& visit) {
-  for (int z = box.lo.z >> kCellBits; z <= box.hi.z >> kCellBits; ++z) {
-    for (int y = box.lo.y >> kCellBits; y <= box.hi.y >> kCellBits; ++y) {
-      for (int x = box.lo.x >> kCellBits; x <= box.hi.x >> kCellBits; ++x)
-        visit(glm::ivec3(x, y, z));
+  const glm::ivec3 lo = cell_of(box.lo);
+  const glm::ivec3 hi = cell_of(box.hi);
+  for (int z = lo.z; z <= hi.z; ++z) {
+    for (int y = lo.y; y <= hi.y; ++y) {
+      for (int x = lo.x; x <= hi.x; ++x) visit(glm::ivec3(x, y, z));
     }
   }
 }
 
-std::size_t hash_of(const glm::ivec3& cell) {
+/// All of whose bits depend on all coordinates (the finaliser of SplitMix64).
+std::uint64_t hash_of(const glm::ivec3& cell) {
   const auto part = [](int index) { return static_cast<std::uint64_t>(index); };
-  const std::uint64_t key = part(cell.x) | part(cell.y) << 20U | part(cell.z) << 40U;
-  return static_cast<std::size_t>((key * 0x9E3779B97F4A7C15ULL) >> 24U);
+  std::uint64_t key = part(cell.x) | part(cell.y) << 20U | part(cell.z) << 40U;
+  key = (key ^ key >> 30U) * 0xBF58476D1CE4E5B9ULL;
+  key = (key ^ key >> 27U) * 0x94D049BB133111EBULL;
+  return key ^ key >> 31U;
+}
+
+/// The part of a triangle's box in one cell, small enough to look through many.
+struct CellBox {
+  std::array<std::uint8_t, 3> lo;  ///< from the cell's corner
+  std::array<std::uint8_t, 3> hi;
+  std::uint16_t tag;  ///< of the cell: tells it from most that share its slot
+};
+
+CellBox clipped(const Box& box, const glm::ivec3& cell) {
+  CellBox part{};
+  for (int axis = 0; axis < 3; ++axis) {
+    const int corner = cell[axis] * kCell;
+    const auto i = static_cast<std::size_t>(axis);
+    part.lo[i] = static_cast<std::uint8_t>(std::max(box.lo[axis] - corner, 0));
+    part.hi[i] = static_cast<std::uint8_t>(std::min(box.hi[axis] - corner, kCell - 1));
+  }
+  part.tag = static_cast<std::uint16_t>(hash_of(cell) >> 16U);
+  return part;
+}
+
+bool overlap(const CellBox& a, const CellBox& b) {
+  return a.tag == b.tag && a.lo[0] <= b.hi[0] && b.lo[0] <= a.hi[0] && a.lo[1] <= b.hi[1] &&
+         b.lo[1] <= a.hi[1] && a.lo[2] <= b.hi[2] && b.lo[2] <= a.hi[2];
 }
 
 }  // namespace
@@ -109,15 +137,12 @@ std::size_t hash_of(const glm::ivec3& cell) {
 class CrossingCounter::Surface {
  public:
   Surface(const TriangleMesh& mesh, const ShellSet& set) {
-    const BorderPlanes border(set);
     std::vector<glm::ivec3> points;
     points.reserve(mesh.positions.size());
     for (const glm::vec3& p : mesh.positions) points.push_back(nearest_index(*set.grid, p));
-    triangles_.reserve(mesh.triangles.size());
-    for (const glm::uvec3& t : mesh.triangles) {
-      if (border.hold_triangle(mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z])) {
-        continue;
-      }
+    const std::vector<glm::uvec3> triangles = BorderPlanes(set).triangles_off(mesh);
+    triangles_.reserve(triangles.size());
+    for (const glm::uvec3& t : triangles) {
       triangles_.push_back({points[t.x], points[t.y], points[t.z]});
     }
     fill_table();
@@ -130,38 +155,55 @@ class CrossingCounter::Surface {
     const Box box = box_of(triangle);
     std::size_t count = 0;
     for_each_cell(box, [&](const glm::ivec3& cell) {
-      const std::size_t slot = hash_of(cell) & mask_;
-      for (std::size_t i = begin_[slot]; i < end_[slot]; ++i) {
-        const GridTriangle& other = triangles_[entries_[i]];
-        const Box other_box = box_of(other);
-        // Pairs meet in every cell they share: in the lowest only they count.
-        const glm::ivec3 lowest = glm::max(box.lo, other_box.lo);
-        const glm::ivec3 lowest_cell(lowest.x >> kCellBits, lowest.y >> kCellBits,
-                                     lowest.z >> kCellBits);
-        if (overlap(box, other_box) && lowest_cell == cell && cross(other, triangle)) ++count;
+      const CellBox part = clipped(box, cell);
+      const std::size_t slot = slot_of(cell);
+      for (std::size_t i = begin_[slot]; i < begin_[slot + 1]; ++i) {
+        if (!overlap(part, entries_[i].box)) continue;
+        const GridTriangle& other = triangles_[entries_[i].triangle];
+        // Pairs meet in every cell that their boxes share: in the lowest only they count.
+        const bool counts =
+            cell_of(glm::max(box.lo, box_of(other).lo)) == cell && same_cell(entries_[i], cell);
+        if (counts && cross(other, triangle)) ++count;
       }
     });
     return count;
   }
 
  private:
+  struct Entry {
+    CellBox box;
+    std::uint32_t triangle;
+  };
+
+  std::size_t slot_of(const glm::ivec3& cell) const {
+    return static_cast<std::size_t>(hash_of(cell) >> 32U) & mask_;
+  }
+
+  /// Whether an entry was made for that cell, and not for another that shares slot and tag: those
+  /// of a triangle that reaches both.
+  bool same_cell(const Entry& entry, const glm::ivec3& cell) const {
+    const Box box = box_of(triangles_[entry.triangle]);
+    const CellBox own = clipped(box, cell);
+    const glm::ivec3 lo = cell_of(box.lo);
+    const glm::ivec3 hi = cell_of(box.hi);
+    return cell.x >= lo.x && cell.x <= hi.x && cell.y >= lo.y && cell.y <= hi.y && cell.z >= lo.z &&
+           cell.z <= hi.z && own.lo == entry.box.lo && own.hi == entry.box.hi;
+  }
+
   /// Counts, then places.
   void fill_table() {
     mask_ = std::bit_ceil(2 * triangles_.size() + 1) - 1;
     begin_.assign(mask_ + 2, 0);
     for (const GridTriangle& t : triangles_) {
-      for_each_cell(box_of(t),
-                    [&](const glm::ivec3& cell) { ++begin_[(hash_of(cell) & mask_) + 1]; });
+      for_each_cell(box_of(t), [&](const glm::ivec3& cell) { ++begin_[slot_of(cell) + 1]; });
     }
     for (std::size_t slot = 1; slot < begin_.size(); ++slot) begin_[slot] += begin_[slot - 1];
     entries_.resize(begin_.back());
-    end_.assign(begin_.begin(), begin_.end() - 1);
+    std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
     for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
-      for_each_cell(box_of(triangles_[t]), [&](const glm::ivec3& cell) {
-        const std::size_t slot = hash_of(cell) & mask_;
-        const std::uint32_t end = end_[slot];
-        // Once a slot, also where several of its cells share that.
-        if (end == begin_[slot] || entries_[end - 1] != t) entries_[end_[slot]++] = t;
+      const Box box = box_of(triangles_[t]);
+      for_each_cell(box, [&](const glm::ivec3& cell) {
+        entries_[next[slot_of(cell)]++] = {clipped(box, cell), t};
       });
     }
   }
@@ -169,8 +211,7 @@ class CrossingCounter::Surface {
   std::vector<GridTriangle> triangles_;  ///< caps left out
   std::size_t mask_ = 0;
   std::vector<std::uint32_t> begin_;  ///< of each slot in `entries_`
-  std::vector<std::uint32_t> end_;
-  std::vector<std::uint32_t> entries_;
+  std::vector<Entry> entries_;
 };
 
 CrossingCounter::CrossingCounter(const ShellSet& set) : set_(set) {}
