@@ -15,8 +15,8 @@
 namespace nacre {
 namespace {
 
-// A component of less than an eighth of a voxel is one sample barely above its level.
-constexpr double kSpeckVoxels = 0.125;
+// Less is one sample that reaches its level and less than a quarter of the way to its neighbours.
+constexpr double kSpeckVoxels = 1.0 / 64.0;
 
 double voxel_mm3(const Volume& volume) {
   const glm::dmat4& m = volume.world_from_voxel;

@@ -41,7 +41,7 @@ void add_shell_flags(CLI::App& verb, ShellFlags& flags) {
       ->group(group);
   auto* least = verb.add_option("--min-component", flags.min_component,
                                 "MM3: closed components of less volume are left out (default: "
-                                "an eighth of a voxel)")
+                                "1/64 of a voxel)")
                     ->check(finite_from_zero(1e30, "a volume in mm3"))
                     ->group(group);
   verb.add_flag("--keep-specks", flags.keep_specks, "Leave out no component for its size")

@@ -22,21 +22,31 @@ void raise(std::atomic<double>& most, double value) {
   }
 }
 
-/// The largest distance of a vertex. Those that are nearer than the largest so far are not
-/// measured exactly; the largest is the same in any order.
-double farthest_vertex(const TriangleMesh& from, const TriangleTree& to) {
-  std::vector<bool> used(from.positions.size(), false);
-  for (const glm::uvec3& t : from.triangles) used[t.x] = used[t.y] = used[t.z] = true;
+/// The largest distance of some points: corners, middles of sides, and inner points. Those that are
+/// nearer than the largest so far are not measured exactly; the largest is the same in any order.
+double farthest_sample(const TriangleMesh& from, const TriangleTree& to) {
   std::atomic<double> most{0.0};
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, used.size(), 1024), [&](const auto& range) {
-    for (std::size_t v = range.begin(); v < range.end(); ++v) {
-      if (!used[v]) continue;
-      const glm::dvec3 p(from.positions[v]);
-      // Any triangle within the largest so far settles it.
-      if (to.cover_radius({p, p, p}, kFar, most.load()) > most.load())
-        raise(most, to.distance(p, kFar));
+  const auto take = [&](const glm::dvec3& p) {
+    // Any triangle within the largest so far settles it.
+    if (to.cover_radius({p, p, p}, kFar, most.load()) > most.load()) {
+      raise(most, to.distance(p, kFar));
     }
-  });
+  };
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, from.triangles.size(), 1024), [&](const auto& range) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+          const glm::uvec3& t = from.triangles[i];
+          const glm::dvec3 center =
+              glm::dvec3(from.positions[t.x] + from.positions[t.y] + from.positions[t.z]) / 3.0;
+          take(center);
+          for (int corner = 0; corner < 3; ++corner) {
+            const glm::dvec3 p(from.positions[t[corner]]);
+            take(p);
+            take(0.5 * (p + glm::dvec3(from.positions[t[(corner + 1) % 3]])));
+            take(0.5 * (p + center));
+          }
+        }
+      });
   return most.load();
 }
 
@@ -95,14 +105,14 @@ BoundedDistance hausdorff_distance(const TriangleMesh& from, const TriangleMesh&
   if (from.triangles.empty()) return {};
   if (to.triangles.empty()) return {kFar, kFar};
   const TriangleTree tree(to);
-  const double known = farthest_vertex(from, tree);
+  const double known = farthest_sample(from, tree);
   return tbb::parallel_reduce(
       tbb::blocked_range<std::size_t>(0, from.triangles.size(), 1024),
       BoundedDistance{known, known},
       [&](const auto& range, BoundedDistance bounds) {
         for (std::size_t i = range.begin(); i < range.end(); ++i) {
           const glm::uvec3& t = from.triangles[i];
-          // Each triangle starts from the vertices' distance alone, so that its bounds do not
+          // Each triangle starts from the samples' distance alone, so that its bounds do not
           // depend on what other threads have found.
           PieceBounds piece(tree, known, error_mm);
           piece.add({glm::dvec3(from.positions[t.x]), glm::dvec3(from.positions[t.y]),
