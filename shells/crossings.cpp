@@ -78,23 +78,47 @@ Box box_of(const GridTriangle& t) {
   return {glm::min(glm::min(t[0], t[1]), t[2]), glm::max(glm::max(t[0], t[1]), t[2])};
 }
 
-constexpr int kCellBits = 6;  // cells of 64 steps: a smallest spacing or less
-constexpr int kCell = 1 << kCellBits;
-
-glm::ivec3 cell_of(const glm::ivec3& p) {
-  return {p.x >> kCellBits, p.y >> kCellBits, p.z >> kCellBits};
+bool overlap(const Box& a, const Box& b) {
+  return a.lo.x <= b.hi.x && b.lo.x <= a.hi.x && a.lo.y <= b.hi.y && b.lo.y <= a.hi.y &&
+         a.lo.z <= b.hi.z && b.lo.z <= a.hi.z;
 }
 
-/// Calls `visit(cell)` with every cell that a box reaches.
-template <class Visit>
-void for_each_cell(const Box& box, Visit&& visit) {
-  const glm::ivec3 lo = cell_of(box.lo);
-  const glm::ivec3 hi = cell_of(box.hi);
-  for (int z = lo.z; z <= hi.z; ++z) {
-    for (int y = lo.y; y <= hi.y; ++y) {
-      for (int x = lo.x; x <= hi.x; ++x) visit(glm::ivec3(x, y, z));
+/// Blocks of 2^bits steps along each axis.
+class Cells {
+ public:
+  explicit Cells(const glm::ivec3& bits) : bits_(bits) {}
+
+  glm::ivec3 at(const glm::ivec3& p) const {
+    return {p.x >> bits_.x, p.y >> bits_.y, p.z >> bits_.z};
+  }
+
+  /// Calls `visit(cell)` with every cell that a box reaches.
+  template <class Visit>
+  void for_each(const Box& box, Visit&& visit) const {
+    const glm::ivec3 lo = at(box.lo);
+    const glm::ivec3 hi = at(box.hi);
+    for (int z = lo.z; z <= hi.z; ++z) {
+      for (int y = lo.y; y <= hi.y; ++y) {
+        for (int x = lo.x; x <= hi.x; ++x) visit(glm::ivec3(x, y, z));
+      }
     }
   }
+
+  int bits(int axis) const { return bits_[axis]; }
+
+ private:
+  glm::ivec3 bits_;
+};
+
+/// Cells about as large as most triangles, so that those reach few.
+Cells cells_for(const std::vector<GridTriangle>& triangles) {
+  glm::dvec3 sum(0.0);
+  for (const GridTriangle& t : triangles) {
+    const Box box = box_of(t);
+    sum += glm::dvec3(box.hi - box.lo);
+  }
+  const glm::uvec3 mean(sum / static_cast<double>(std::max<std::size_t>(triangles.size(), 1)));
+  return Cells({std::bit_width(mean.x), std::bit_width(mean.y), std::bit_width(mean.z)});
 }
 
 /// All of whose bits depend on all coordinates (the finaliser of SplitMix64).
@@ -106,22 +130,27 @@ std::uint64_t hash_of(const glm::ivec3& cell) {
   return key ^ key >> 31U;
 }
 
-/// The part of a triangle's box in one cell, small enough to look through many.
+/// The part of a triangle's box in one cell, rounded outwards to what fits a byte: small enough to
+/// look through many.
 struct CellBox {
   std::array<std::uint8_t, 3> lo;  ///< from the cell's corner
   std::array<std::uint8_t, 3> hi;
   std::uint16_t tag;  ///< of the cell: tells it from most that share its slot
+
+  bool operator==(const CellBox&) const = default;
 };
 
-CellBox clipped(const Box& box, const glm::ivec3& cell) {
+CellBox clipped(const Box& box, const glm::ivec3& cell, const Cells& cells) {
   CellBox part{};
   for (int axis = 0; axis < 3; ++axis) {
-    const int corner = cell[axis] * kCell;
+    const int last = (1 << cells.bits(axis)) - 1;
+    const int shift = std::max(cells.bits(axis) - 8, 0);
+    const int corner = cell[axis] << cells.bits(axis);
     const auto i = static_cast<std::size_t>(axis);
-    part.lo[i] = static_cast<std::uint8_t>(std::max(box.lo[axis] - corner, 0));
-    part.hi[i] = static_cast<std::uint8_t>(std::min(box.hi[axis] - corner, kCell - 1));
+    part.lo[i] = static_cast<std::uint8_t>(std::max(box.lo[axis] - corner, 0) >> shift);
+    part.hi[i] = static_cast<std::uint8_t>(std::min(box.hi[axis] - corner, last) >> shift);
   }
-  part.tag = static_cast<std::uint16_t>(hash_of(cell) >> 16U);
+  part.tag = static_cast<std::uint16_t>(hash_of(cell));
   return part;
 }
 
@@ -145,6 +174,7 @@ class CrossingCounter::Surface {
     for (const glm::uvec3& t : triangles) {
       triangles_.push_back({points[t.x], points[t.y], points[t.z]});
     }
+    cells_ = cells_for(triangles_);
     fill_table();
   }
 
@@ -154,15 +184,17 @@ class CrossingCounter::Surface {
   std::size_t crossings(const GridTriangle& triangle) const {
     const Box box = box_of(triangle);
     std::size_t count = 0;
-    for_each_cell(box, [&](const glm::ivec3& cell) {
-      const CellBox part = clipped(box, cell);
+    cells_.for_each(box, [&](const glm::ivec3& cell) {
+      const CellBox part = clipped(box, cell, cells_);
       const std::size_t slot = slot_of(cell);
       for (std::size_t i = begin_[slot]; i < begin_[slot + 1]; ++i) {
         if (!overlap(part, entries_[i].box)) continue;
         const GridTriangle& other = triangles_[entries_[i].triangle];
+        const Box other_box = box_of(other);
         // Pairs meet in every cell that their boxes share: in the lowest only they count.
-        const bool counts =
-            cell_of(glm::max(box.lo, box_of(other).lo)) == cell && same_cell(entries_[i], cell);
+        const bool counts = overlap(box, other_box) &&
+                            cells_.at(glm::max(box.lo, other_box.lo)) == cell &&
+                            clipped(other_box, cell, cells_) == entries_[i].box;
         if (counts && cross(other, triangle)) ++count;
       }
     });
@@ -179,36 +211,26 @@ class CrossingCounter::Surface {
     return static_cast<std::size_t>(hash_of(cell) >> 32U) & mask_;
   }
 
-  /// Whether an entry was made for that cell, and not for another that shares slot and tag: those
-  /// of a triangle that reaches both.
-  bool same_cell(const Entry& entry, const glm::ivec3& cell) const {
-    const Box box = box_of(triangles_[entry.triangle]);
-    const CellBox own = clipped(box, cell);
-    const glm::ivec3 lo = cell_of(box.lo);
-    const glm::ivec3 hi = cell_of(box.hi);
-    return cell.x >= lo.x && cell.x <= hi.x && cell.y >= lo.y && cell.y <= hi.y && cell.z >= lo.z &&
-           cell.z <= hi.z && own.lo == entry.box.lo && own.hi == entry.box.hi;
-  }
-
   /// Counts, then places.
   void fill_table() {
     mask_ = std::bit_ceil(2 * triangles_.size() + 1) - 1;
     begin_.assign(mask_ + 2, 0);
     for (const GridTriangle& t : triangles_) {
-      for_each_cell(box_of(t), [&](const glm::ivec3& cell) { ++begin_[slot_of(cell) + 1]; });
+      cells_.for_each(box_of(t), [&](const glm::ivec3& cell) { ++begin_[slot_of(cell) + 1]; });
     }
     for (std::size_t slot = 1; slot < begin_.size(); ++slot) begin_[slot] += begin_[slot - 1];
     entries_.resize(begin_.back());
     std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
     for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
       const Box box = box_of(triangles_[t]);
-      for_each_cell(box, [&](const glm::ivec3& cell) {
-        entries_[next[slot_of(cell)]++] = {clipped(box, cell), t};
+      cells_.for_each(box, [&](const glm::ivec3& cell) {
+        entries_[next[slot_of(cell)]++] = {clipped(box, cell, cells_), t};
       });
     }
   }
 
   std::vector<GridTriangle> triangles_;  ///< caps left out
+  Cells cells_{glm::ivec3(0)};
   std::size_t mask_ = 0;
   std::vector<std::uint32_t> begin_;  ///< of each slot in `entries_`
   std::vector<Entry> entries_;

@@ -50,6 +50,24 @@ TEST(Crossings, ANeedleThroughAPlateCrossesSixteenPairs) {
   EXPECT_EQ(found[0].pairs, 16u);
 }
 
+// However fine the grid, triangles reach few cells.
+TEST(Crossings, OfAFineGridAreTheSame) {
+  BuildOptions options;
+  options.levels = uniform_levels(3);
+  const Volume noise = random_volume<std::uint8_t>({8, 8, 8}, 0, 255, 4);
+  for (const int bits : {12, 16, 20}) {
+    options.quantization_bits = bits;
+    const ShellSet set = build_shells(noise, EmissionMap::window(0, 255), options).set;
+    const BorderPlanes border(set);
+    for (const NeighbourCrossings& pair : crossings_of(set)) {
+      EXPECT_EQ(pair.pairs,
+                mutual_intersections(border.without_caps(set.shells[pair.outer].surface),
+                                     border.without_caps(set.shells[pair.inner].surface))
+                    .crossing);
+    }
+  }
+}
+
 TEST(Crossings, NestedAndTouchingSurfacesHaveNone) {
   TriangleMesh inside = cube_surface(0.5F);
   for (glm::vec3& p : inside.positions) p.z += 0.5F;  // its top in the outer one's
