@@ -6,11 +6,11 @@
 #include <utility>
 #include <vector>
 
+#include "app/renderer_choice.h"
 #include "core/error.h"
 #include "core/volume_geometry.h"
 #include "io/shell_reader.h"
 #include "reference/tool_rays.h"
-#include "render/gl/gl_renderer.h"
 #include "report/shell_error.h"
 
 namespace nacre {
@@ -26,15 +26,15 @@ Volume read_volume_for(const ExplainFlags& flags, Reporter& reporter) {
 /// The picture that `nacre render` makes.
 Image draw(const ExplainFlags& flags, const ShellSet& set, std::span<const Tool> tools,
            const Camera& camera, const RenderOptions& options, Reporter& reporter) {
-  GlRenderer renderer(backend_of(flags.draw));
   const SceneFacts facts = scene_facts(set, tools);
-  const Plan plan = make_plan(facts, camera, options, renderer.capabilities());
+  const auto [renderer, plans] =
+      open_renderer(flags.draw.backend, flags.draw.detail_px, facts, {&camera, 1}, options);
+  const Plan& plan = plans.front();
   if (flags.draw.explain) say_plan(plan, reporter);
-  renderer.upload(set, facts, shells_drawn(plan), {.normals = plan.normals});
-  renderer.upload_tools(tools);
-  Image picture = renderer.render(camera, plan).volume;
-  reporter.say(
-      fmt::format("drawn by {}: {}", name(renderer.info().backend), renderer.info().renderer));
+  renderer->upload(set, facts, shells_drawn(plan), {.normals = plan.normals});
+  renderer->upload_tools(tools);
+  Image picture = renderer->render(camera, plan).volume;
+  reporter.say(fmt::format("drawn by {}: {}", renderer->backend_name(), renderer->device_name()));
   return picture;
 }
 

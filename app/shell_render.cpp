@@ -14,12 +14,14 @@
 
 #include "app/flag_values.h"
 #include "app/pruned_shells.h"
+#include "app/renderer_choice.h"
 #include "app/thread_limit.h"
 #include "app/turntable_output.h"
 #include "core/error.h"
 #include "core/volume_geometry.h"
 #include "io/shell_reader.h"
-#include "render/gl/gl_renderer.h"
+#include "render/gl/backends.h"
+#include "render/shell_renderer.h"
 
 namespace nacre {
 namespace {
@@ -99,7 +101,7 @@ std::vector<std::uint32_t> drawn_in_any(const std::vector<Plan>& plans) {
 }
 
 /// Copies to the context what any of the plans needs.
-void upload(GlRenderer& renderer, const ShellSet& set, const SceneFacts& facts,
+void upload(ShellRenderer& renderer, const ShellSet& set, const SceneFacts& facts,
             std::span<const Tool> tools, const std::vector<Plan>& plans) {
   const bool normals =
       std::any_of(plans.begin(), plans.end(), [](const Plan& plan) { return plan.normals; });
@@ -107,12 +109,12 @@ void upload(GlRenderer& renderer, const ShellSet& set, const SceneFacts& facts,
   renderer.upload_tools(tools);
 }
 
-ordered_json figures_of(const GlRenderer& renderer, const ExactFlags& flags, const Plan& plan,
+ordered_json figures_of(const ShellRenderer& renderer, const ExactFlags& flags, const Plan& plan,
                         const TurntableResult& result, const Timing& timing) {
   const Image& image = result.last.volume;
   ordered_json json;
-  json["backend"] = name(renderer.info().backend);
-  json["renderer"] = renderer.info().renderer;
+  json["backend"] = renderer.backend_name();
+  json["renderer"] = renderer.device_name();
   json["mode"] = flags.picture.mode;
   json["picture"] = {{"width", image.width}, {"height", image.height}};
   if (result.window) json["display"] = {result.window->lo, result.window->hi};
@@ -134,7 +136,7 @@ ordered_json figures_of(const GlRenderer& renderer, const ExactFlags& flags, con
 }
 
 /// Draws all views and writes their pictures.
-void draw_views(GlRenderer& renderer, const ExactFlags& flags, const DrawFlags& draw,
+void draw_views(ShellRenderer& renderer, const ExactFlags& flags, const DrawFlags& draw,
                 const Views& views, const std::vector<Plan>& plans, Timing timing,
                 Reporter& reporter) {
   if (draw.explain) say_plan(plans.front(), reporter);
@@ -152,22 +154,12 @@ void draw_views(GlRenderer& renderer, const ExactFlags& flags, const DrawFlags& 
   const Image& image = result.last.volume;
   std::vector<double> sorted = timing.frames;
   std::sort(sorted.begin(), sorted.end());
-  reporter.say(fmt::format("{} {} of {} x {} pixels, {:.1f} ms a frame, {} triangles ({}: {}){}{}",
-                           plans.size(), plans.size() == 1 ? "picture" : "pictures", image.width,
-                           image.height, 1e3 * sorted[sorted.size() / 2],
-                           renderer.last_frame().triangles, name(renderer.info().backend),
-                           renderer.info().renderer, flags.picture.output.empty() ? "" : " -> ",
-                           flags.picture.output));
+  reporter.say(fmt::format(
+      "{} {} of {} x {} pixels, {:.1f} ms a frame, {} triangles ({}: {}){}{}", plans.size(),
+      plans.size() == 1 ? "picture" : "pictures", image.width, image.height,
+      1e3 * sorted[sorted.size() / 2], renderer.last_frame().triangles, renderer.backend_name(),
+      renderer.device_name(), flags.picture.output.empty() ? "" : " -> ", flags.picture.output));
   reporter.finish(figures_of(renderer, flags, plans.back(), result, timing));
-}
-
-std::vector<Plan> plans_for(const SceneFacts& facts, const Views& views,
-                            const GlRenderer& renderer) {
-  std::vector<Plan> plans;
-  for (const Camera& camera : views.cameras) {
-    plans.push_back(make_plan(facts, camera, views.options, renderer.capabilities()));
-  }
-  return plans;
 }
 
 /// A file's facts, without decoding it, and those of the tools.
@@ -189,7 +181,7 @@ SceneFacts facts_of(const ShellFileInfo& info, std::span<const Tool> tools) {
 
 void add_draw_flags(CLI::App& verb, DrawFlags& flags) {
   const std::string group = "Drawing shells";
-  verb.add_option("--backend", flags.backend, "auto, egl or osmesa")
+  verb.add_option("--backend", flags.backend, "auto, egl, osmesa or cpu")
       ->capture_default_str()
       ->group(group);
   verb.add_option("--depth-buffer", flags.depth_buffer, "16, 24 or 32f")
@@ -199,9 +191,15 @@ void add_draw_flags(CLI::App& verb, DrawFlags& flags) {
       ->capture_default_str()
       ->group(group);
   verb.add_option("--occlusion", flags.occlusion,
-                  "How tools hide what is behind them in a maximum: passes, texture, or auto, the "
-                  "cheaper one that is exact")
+                  "How tools hide what is behind them in a maximum: passes, texture, or auto: the "
+                  "texture, always exact and seldom the slower")
       ->capture_default_str()
+      ->group(group);
+  verb.add_option("--detail", flags.detail_px,
+                  "PX: the cpu backend may move surfaces by this many pixels to draw fewer "
+                  "triangles (0: none)")
+      ->capture_default_str()
+      ->check(CLI::NonNegativeNumber)
       ->group(group);
   auto* hide = verb.add_option("--hide", flags.hide,
                                "K,K,...: shells not shown, counted from 1, outermost first")
@@ -211,12 +209,6 @@ void add_draw_flags(CLI::App& verb, DrawFlags& flags) {
       ->group(group);
   verb.add_flag("--explain", flags.explain, "Print what is drawn and what is left out, and why")
       ->group(group);
-}
-
-Backend backend_of(const DrawFlags& draw) {
-  if (const auto found = backend(draw.backend)) return *found;
-  throw Error(ErrorCode::BadArgument,
-              fmt::format("--backend: found '{}', expected auto, egl or osmesa", draw.backend));
 }
 
 RenderOptions render_options(const ExactFlags& flags, const DrawFlags& draw, std::size_t shells) {
@@ -245,7 +237,7 @@ void run_shell_file(const ExactFlags& flags, const DrawFlags& draw) {
   Reporter reporter(flags.common);
   const ThreadLimit limit(flags.common);
   check_output(flags.picture, flags.camera);
-  const Backend wanted_backend = backend_of(draw);
+  check_backend(draw.backend);
   Timing timing;
   Stopwatch watch;
   const std::vector<Tool> tools = read_tools(flags.scene);
@@ -253,10 +245,9 @@ void run_shell_file(const ExactFlags& flags, const DrawFlags& draw) {
   const Views views = views_of(flags, draw, info.set.volume, info.levels.size());
   check_pruning(info.set, views.options, views.cameras, reporter);
   timing.load = watch.lap();
-  GlRenderer renderer(wanted_backend);
-  timing.upload = watch.lap();
   const SceneFacts facts = facts_of(info, tools);
-  const std::vector<Plan> plans = plans_for(facts, views, renderer);
+  const auto [renderer, plans] =
+      open_renderer(draw.backend, draw.detail_px, facts, views.cameras, views.options);
   const std::vector<std::uint32_t> drawn = drawn_in_any(plans);
   timing.plan = watch.lap();
   const ShellSet set = read_shell_set(
@@ -265,9 +256,9 @@ void run_shell_file(const ExactFlags& flags, const DrawFlags& draw) {
            [&](std::size_t shell) { return std::binary_search(drawn.begin(), drawn.end(), shell); },
        .progress = reporter.progress()});
   timing.load += watch.lap();
-  upload(renderer, set, facts, tools, plans);
-  timing.upload += watch.lap();
-  draw_views(renderer, flags, draw, views, plans, timing, reporter);
+  upload(*renderer, set, facts, tools, plans);
+  timing.upload = watch.lap();
+  draw_views(*renderer, flags, draw, views, plans, timing, reporter);
 }
 
 void run_shells_of_volume(const ExactFlags& flags, const DrawFlags& draw,
@@ -275,7 +266,7 @@ void run_shells_of_volume(const ExactFlags& flags, const DrawFlags& draw,
   Reporter reporter(flags.common);
   const ThreadLimit limit(flags.common);
   check_output(flags.picture, flags.camera);
-  const Backend wanted_backend = backend_of(draw);
+  check_backend(draw.backend);
   Timing timing;
   Stopwatch watch;
   const std::vector<Tool> tools = read_tools(flags.scene);
@@ -284,17 +275,18 @@ void run_shells_of_volume(const ExactFlags& flags, const DrawFlags& draw,
   const ShellSet set = build_shell_set(shells, std::move(input), reporter, figures);
   const Views views = views_of(flags, draw, set.volume, set.shells.size());
   timing.load = watch.lap();
-  GlRenderer renderer(wanted_backend);
-  timing.upload = watch.lap();
   const SceneFacts facts = scene_facts(set, tools);
-  const std::vector<Plan> plans = plans_for(facts, views, renderer);
+  const auto [renderer, plans] =
+      open_renderer(draw.backend, draw.detail_px, facts, views.cameras, views.options);
   timing.plan = watch.lap();
-  upload(renderer, set, facts, tools, plans);
-  timing.upload += watch.lap();
-  draw_views(renderer, flags, draw, views, plans, timing, reporter);
+  upload(*renderer, set, facts, tools, plans);
+  timing.upload = watch.lap();
+  draw_views(*renderer, flags, draw, views, plans, timing, reporter);
 }
 
 void say_backends() {
+  fmt::print("{:<7} {:<12} {:<9} maximum projections of whole shells\n", "cpu", "built in",
+             "processor");
   const BackendList list = list_backends();
   for (const BackendInfo& info : list.working) {
     fmt::print("{:<7} {:<12} {:<9} {} ({})\n", name(info.backend), info.platform,

@@ -5,7 +5,6 @@
 
 #include "app/exact_command.h"
 #include "app/shell_building.h"
-#include "render/gl/backends.h"
 #include "render/plan.h"
 #include "render/render_options.h"
 
@@ -19,14 +18,15 @@ struct DrawFlags {
   std::string occlusion = "auto";
   std::string hide;  ///< shells, counted from 1, outermost first
   std::string only;
+  double detail_px = 0.0;
   bool explain = false;
 };
 
-/// Adds --backend, --depth-buffer, --target, --occlusion, --hide, --only and --explain.
+/// Adds --backend, --depth-buffer, --target, --occlusion, --hide, --only, --detail and
+/// --explain.
 void add_draw_flags(CLI::App& verb, DrawFlags& flags);
 
 /// @throws Error  BadArgument for what the flags cannot mean
-Backend backend_of(const DrawFlags& draw);
 RenderOptions render_options(const ExactFlags& flags, const DrawFlags& draw, std::size_t shells);
 
 /// Says what is drawn and what is left out, and why: --explain.

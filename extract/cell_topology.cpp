@@ -55,7 +55,7 @@ SimpleCase simple_case(const CellCase& traced) {
     return simple;
   }
   simple.triangle_count = loop.triangle_count;
-  for (std::size_t i = 0; i < 3u * loop.triangle_count; ++i) {
+  for (std::size_t i = 0; i < std::size_t{3} * loop.triangle_count; ++i) {
     simple.edges[i] = loop.triangles[i / 3][i % 3];
   }
   return simple;
@@ -93,8 +93,8 @@ CapCase trace_cap(unsigned mask, bool joined) {
 std::array<CapCase, 32> trace_caps() {
   std::array<CapCase, 32> caps;
   for (unsigned mask = 0; mask < 16; ++mask) {
-    caps[2 * mask] = trace_cap(mask, false);
-    caps[2 * mask + 1] = trace_cap(mask, true);
+    caps[std::size_t{2} * mask] = trace_cap(mask, false);
+    caps[std::size_t{2} * mask + 1] = trace_cap(mask, true);
   }
   return caps;
 }

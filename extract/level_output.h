@@ -23,7 +23,7 @@ class ChunkedStream {
   void commit(std::size_t count) { cursor_ += count; }
 
   std::size_t size() const {
-    std::size_t sum = static_cast<std::size_t>(cursor_ - begin_);
+    auto sum = static_cast<std::size_t>(cursor_ - begin_);
     for (const std::span<Element> chunk : full_) sum += chunk.size();
     return sum;
   }

@@ -124,9 +124,11 @@ std::vector<std::uint32_t> shells_drawn(const Plan& plan);
 /// - counts where no ray can start (end) inside a shell, or where the other end is brighter;
 /// - the colour target where the depth is the picture; normals where nothing is lit.
 ///
-/// Tools against a maximum: by passes or by texture, see `Occlusion`. Passes need depths that rise
-/// towards the eye: they are exact without a cue, and with one where a r_k / beta_max >= 2^-12 for
-/// each shell that tools reach; elsewhere the texture is used, and said to be.
+/// Tools against a maximum: by texture or, if asked for, by passes, see `Occlusion`. Passes need
+/// depths that rise towards the eye: they are exact without a cue, and with one where
+/// a r_k / beta_max >= 2^-12 for each shell that tools reach; elsewhere the texture is used, and
+/// said to be. In 16 bits, shared among all remaps without a cue, they tell a tool from a shell to
+/// n / 2^16 of the sphere's diameter.
 ///
 /// @throws Error  BadArgument for a hidden shell that does not exist, a cue that is not finite or
 ///                negative at z = 0 or 1, an empty slab, or a sum in 8 bits; Unsupported for more

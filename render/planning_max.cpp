@@ -15,12 +15,6 @@ namespace {
 /// Least slope of a cued remap that keeps a tool and a shell behind it apart.
 constexpr double kLeastSlope = 0x1p-12;
 
-/// What comparing a shell's fragments with the tool layer costs, and what drawing the tools before
-/// a shell costs besides their triangles (their pixels), both in triangles of a shell: measured on
-/// llvmpipe, docs/decisions/012-tools-by-texture.md.
-constexpr double kComparedTriangle = 0.15;
-constexpr double kToolPixels = 5000.0;
-
 /// Which way along a ray beta rises.
 enum class Trend { TowardsTheEye, None, AwayFromTheEye };
 
@@ -86,33 +80,16 @@ std::string_view why_not_passes(const Planning& planning) {
   return steep ? "" : "the cue is too flat: depths of tools and shells run into each other";
 }
 
-/// Whether tools drawn under each remap cost less than comparing each fragment with them.
-bool passes_are_cheaper(const Planning& planning, std::size_t tool_triangles) {
-  double compared = 0.0;
-  double shells = 0.0;
-  for (const ShownShell& shell : planning.shells) {
-    if (!shell.reached) continue;
-    shells += 1.0;
-    compared += static_cast<double>(shell.triangles);
-  }
-  return shells * (static_cast<double>(tool_triangles) + kToolPixels) <
-         kComparedTriangle * compared;
-}
-
-ToolCut tool_cut(Planning& planning, std::size_t tool_triangles) {
+/// How tools cut the shells they reach. By texture unless passes are asked for: it is always exact,
+/// and seldom the slower (docs/decisions/012-tools-by-texture.md).
+ToolCut tool_cut(Planning& planning) {
   const bool reached = std::any_of(planning.shells.begin(), planning.shells.end(),
                                    [](const ShownShell& shell) { return shell.reached; });
-  const Occlusion wanted = planning.options.occlusion;
-  if (!reached || wanted == Occlusion::Texture) return ToolCut::Texture;
+  if (!reached || planning.options.occlusion != Occlusion::Passes) return ToolCut::Texture;
   const std::string_view obstacle = why_not_passes(planning);
-  if (wanted == Occlusion::Passes) {
-    if (obstacle.empty()) return ToolCut::Passes;
-    planning.leave_out("occlusion by passes", obstacle);
-    return ToolCut::Texture;
-  }
-  // 16 bits, shared among all remaps, leave too few for each.
-  const bool exact = obstacle.empty() && planning.options.depth != DepthFormat::D16;
-  return exact && passes_are_cheaper(planning, tool_triangles) ? ToolCut::Passes : ToolCut::Texture;
+  if (obstacle.empty()) return ToolCut::Passes;
+  planning.leave_out("occlusion by passes", obstacle);
+  return ToolCut::Texture;
 }
 
 /// The largest emission shown where n of the shells, nested, surround a point.
@@ -190,7 +167,7 @@ Pass max_pass(Planning& planning, Trend trend, bool ranked) {
     pass.tools = planning.tools;
     pass.tool_triangles = plan.passes.front().tool_triangles;
   }
-  const ToolCut cut = tool_cut(planning, pass.tool_triangles);
+  const ToolCut cut = tool_cut(planning);
   const bool color = cut == ToolCut::Passes || !options.rules.leave_out_color;
   pass.kind = color ? PassKind::MaxColor : PassKind::MaxDepth;
   const std::vector<double> ranks = ranked ? representatives(planning) : std::vector<double>{};

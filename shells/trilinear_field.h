@@ -21,7 +21,8 @@ class TrilinearField {
 
   /// A position in voxel coordinates.
   glm::dvec3 voxel_from_local(const glm::dvec3& p_mm) const noexcept {
-    return glm::dvec3(voxel_from_local_ * glm::dvec4(p_mm, 1.0));
+    const glm::dvec4 p_voxel = voxel_from_local_ * glm::dvec4(p_mm, 1.0);
+    return {p_voxel.x, p_voxel.y, p_voxel.z};
   }
 
   /// The value at a position in voxel coordinates; beyond the box that of its nearest point.

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
+#include <system_error>
 
 #include "core/error.h"
 #include "render/gl/egl_context.h"
@@ -115,6 +117,15 @@ BackendList list_backends() {
     }
   }
   return list;
+}
+
+bool may_have_hardware() {
+  // Direct rendering, NVIDIA's own driver, Windows' under WSL.
+  constexpr std::array<const char*, 3> kDevices{"/dev/dri", "/dev/nvidiactl", "/dev/dxg"};
+  std::error_code unknown;
+  return std::any_of(kDevices.begin(), kDevices.end(), [&](const char* device) {
+    return std::filesystem::exists(device, unknown) || unknown;
+  });
 }
 
 OpenBackend open_backend(Backend backend) {

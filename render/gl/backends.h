@@ -39,6 +39,10 @@ struct BackendList {
 /// Opens every context there is, once: takes up to half a second each.
 BackendList list_backends();
 
+/// Whether the system has a device that OpenGL might be drawn by: a look at the device files, so
+/// that a machine without any is known in no time. Yes where it cannot tell.
+bool may_have_hardware();
+
 /// A context and what it is; never null.
 struct OpenBackend {
   std::unique_ptr<GlContext> context;

@@ -141,6 +141,10 @@ GlRenderer& GlRenderer::operator=(GlRenderer&&) noexcept = default;
 
 const BackendInfo& GlRenderer::info() const noexcept { return drawing_->info(); }
 
+std::string_view GlRenderer::backend_name() const noexcept { return name(info().backend); }
+
+std::string GlRenderer::device_name() const { return info().renderer; }
+
 const Capabilities& GlRenderer::capabilities() const noexcept { return drawing_->capabilities(); }
 
 void GlRenderer::upload(const ShellSet& set, const UploadOptions& options) {
@@ -151,18 +155,7 @@ void GlRenderer::upload(const ShellSet& set, const UploadOptions& options) {
 
 void GlRenderer::upload(const ShellSet& set, const SceneFacts& facts,
                         std::span<const std::uint32_t> shells, const UploadOptions& options) {
-  for (const std::uint32_t shell : shells) {
-    if (shell >= set.shells.size() || shell >= facts.shells.size()) {
-      throw Error(ErrorCode::BadArgument,
-                  fmt::format("shell {}: found {} in the set", shell + 1, set.shells.size()));
-    }
-    const std::size_t found = set.shells[shell].surface.triangles.size();
-    if (found != facts.shells[shell].triangles) {
-      throw Error(ErrorCode::BadArgument,
-                  fmt::format("shell {}: found {} triangles, expected {}", shell + 1, found,
-                              facts.shells[shell].triangles));
-    }
-  }
+  check_upload(set, facts, shells);
   drawing_->upload(set, facts, shells, options);
 }
 

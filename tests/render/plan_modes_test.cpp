@@ -141,14 +141,10 @@ TEST(PlanModes, PassesThatWouldNotBeExactGiveWayToTheTexture) {
   }
 }
 
-TEST(PlanModes, AutoTakesPassesWhereShellsOutweighTheTools) {
-  SceneFacts facts = scene_with_tool();
-  EXPECT_EQ(pass_of(plan_of(facts), PassKind::MaxColor), nullptr);
-  for (ShellFacts& shell : facts.shells) shell.triangles *= 100;
-  EXPECT_NE(pass_of(plan_of(facts), PassKind::MaxColor), nullptr);
-  EXPECT_EQ(pass_of(plan_of(facts, {.depth = DepthFormat::D16}), PassKind::MaxColor), nullptr);
-  facts.tools[0].triangles = 200000;
-  EXPECT_EQ(pass_of(plan_of(facts), PassKind::MaxColor), nullptr);
+TEST(PlanModes, AutoTakesTheTexture) {
+  EXPECT_EQ(pass_of(plan_of(scene_with_tool()), PassKind::MaxColor), nullptr);
+  const Plan plan = plan_of(scene_with_tool(), {.occlusion = Occlusion::Texture});
+  EXPECT_EQ(describe(plan.passes.back()), describe(plan_of(scene_with_tool()).passes.back()));
 }
 
 TEST(PlanModes, CountsAreMadeWhereRaysStartInsideAndToolsEndThem) {

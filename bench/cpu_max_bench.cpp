@@ -1,0 +1,213 @@
+// Maximum projection on the processor against what else there is: frames of 512 x 512 pixels, 36
+// views about the volume, the time beside its error. Real scans are read from the folder that
+// NACRE_TEST_DATA names, and left out where it is not set.
+#include <benchmark/benchmark.h>
+#include <tbb/global_control.h>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <functional>
+#include <glm/vec3.hpp>
+#include <limits>
+#include <map>
+#include <memory>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/error.h"
+#include "core/volume_geometry.h"
+#include "datasets/phantom.h"
+#include "extract/levels.h"
+#include "extract/marching_cubes.h"
+#include "io/volume_reader.h"
+#include "reference/exact_picture.h"
+#include "render/cpu/cpu_renderer.h"
+#include "render/gl/gl_renderer.h"
+#include "report/picture_error.h"
+
+namespace nacre {
+namespace {
+
+constexpr int kSide = 512;
+constexpr int kViews = 36;
+
+/// A volume and its window.
+struct Scene {
+  std::string name;
+  std::string file;  ///< in the test data; empty for the phantom
+  double lo = 0.0;
+  double hi = 0.0;
+  std::int64_t side = 256;  ///< samples of the phantom along x and y
+};
+
+/// All that the benches of a scene share, made when first needed.
+class LoadedScene {
+ public:
+  explicit LoadedScene(const Scene& scene)
+      : volume_(scene.file.empty() ? phantom(scene.side) : read(scene.file)),
+        emission_(EmissionMap::window(scene.lo, scene.hi)),
+        walk_(volume_, emission_),
+        sphere_(bounding_sphere(volume_.dims, volume_.world_from_voxel)) {
+    for (int view = 0; view < kViews; ++view) {
+      const double azimuth = 2.0 * std::numbers::pi * view / kViews;
+      cameras_.push_back(make_camera({.size = {kSide, kSide}, .azimuth_rad = azimuth}, sphere_));
+    }
+  }
+
+  const ShellSet& shells(int levels) {
+    ShellSet& set = sets_[levels];
+    if (!set.shells.empty()) return set;
+    std::vector<double> values;
+    for (const Level& level : uniform_levels(static_cast<std::size_t>(levels))) {
+      values.push_back(emission_.value_at(level.emission));
+      set.shells.push_back({level.emission, values.back(), level.representative, {}});
+    }
+    std::vector<TriangleMesh> surfaces = extract_surfaces(volume_, values);
+    for (std::size_t i = 0; i < surfaces.size(); ++i) {
+      set.shells[i].surface = std::move(surfaces[i]);
+    }
+    set.center_mm = sphere_.center_mm;
+    return set;
+  }
+
+  const Image& truth(int view) {
+    if (truth_.empty()) {
+      for (const Camera& camera : cameras_) truth_.push_back(exact_picture(walk_, camera).volume);
+    }
+    return truth_[static_cast<std::size_t>(view)];
+  }
+
+  const Camera& camera(int view) const { return cameras_[static_cast<std::size_t>(view)]; }
+  const ExactWalk& walk() const { return walk_; }
+
+ private:
+  static Volume phantom(std::int64_t side) {
+    return make_phantom("angiogram", {.size = glm::i64vec3(side, side, side * 124 / 256)});
+  }
+
+  static Volume read(const std::string& file) {
+    return read_volume(std::filesystem::path(std::getenv("NACRE_TEST_DATA")) / "volumes" / file)
+        .volume;
+  }
+
+  Volume volume_;
+  EmissionMap emission_;
+  ExactWalk walk_;
+  BoundingSphere sphere_;
+  std::vector<Camera> cameras_;
+  std::map<int, ShellSet> sets_;
+  std::vector<Image> truth_;
+};
+
+LoadedScene& loaded(const Scene& scene) {
+  static std::map<std::string, std::unique_ptr<LoadedScene>> scenes;
+  std::unique_ptr<LoadedScene>& entry = scenes[scene.name];
+  if (!entry) entry = std::make_unique<LoadedScene>(scene);
+  return *entry;
+}
+
+/// Draws all views over and over, then states the error over all views together.
+template <class Draw>
+void frames(benchmark::State& state, LoadedScene& scene, const Draw& draw) {
+  for (int view = 0; view < kViews; ++view) benchmark::DoNotOptimize(draw(scene.camera(view)));
+  int view = 0;
+  for (auto _ : state) benchmark::DoNotOptimize(draw(scene.camera(view++ % kViews)));
+  double squares_all = 0.0;
+  double squares_lit = 0.0;
+  double all = 0.0;
+  double lit = 0.0;
+  for (view = 0; view < kViews; ++view) {
+    const PictureComparison error =
+        compare_pictures(draw(scene.camera(view)), scene.truth(view), 1.0);
+    squares_all += std::pow(error.all.rmse, 2) * static_cast<double>(error.all.pixels);
+    squares_lit += std::pow(error.lit.rmse, 2) * static_cast<double>(error.lit.pixels);
+    all += static_cast<double>(error.all.pixels);
+    lit += static_cast<double>(error.lit.pixels);
+  }
+  state.counters["dB_all"] = -10.0 * std::log10(squares_all / all);
+  state.counters["dB_lit"] = -10.0 * std::log10(squares_lit / lit);
+}
+
+template <class Renderer>
+void shell_frames(benchmark::State& state, const Scene& scene, int levels, Renderer& renderer) {
+  LoadedScene& data = loaded(scene);
+  renderer.upload(data.shells(levels));
+  frames(state, data, [&](const Camera& camera) { return renderer.render(camera).volume; });
+  std::size_t triangles = 0;
+  for (const Shell& shell : data.shells(levels).shells) triangles += shell.surface.triangles.size();
+  state.counters["triangles"] = static_cast<double>(triangles);
+}
+
+void cpu_frames(benchmark::State& state, const Scene& scene, int levels, std::size_t threads,
+                double detail_px = 0.0) {
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+  CpuRenderer renderer({.detail_px = detail_px});
+  shell_frames(state, scene, levels, renderer);
+}
+
+void gl_frames(benchmark::State& state, const Scene& scene, int levels, Backend backend) {
+  try {
+    GlRenderer renderer(backend);
+    shell_frames(state, scene, levels, renderer);
+  } catch (const Error& error) {
+    state.SkipWithError(error.what());
+  }
+}
+
+void exact_frames(benchmark::State& state, const Scene& scene) {
+  LoadedScene& data = loaded(scene);
+  frames(state, data,
+         [&](const Camera& camera) { return exact_picture(data.walk(), camera).volume; });
+}
+
+void register_bench(const std::string& name, const std::function<void(benchmark::State&)>& run) {
+  benchmark::RegisterBenchmark(name.c_str(), run)
+      ->Unit(benchmark::kMillisecond)
+      ->MeasureProcessCPUTime()
+      ->UseRealTime();
+}
+
+void register_scene(const Scene& scene) {
+  register_bench(scene.name + "/exact", [=](auto& state) { exact_frames(state, scene); });
+  for (const int levels : {6, 12, 24, 48}) {
+    const std::string shells = scene.name + "/" + std::to_string(levels);
+    for (const std::size_t threads : {std::size_t{1}, std::size_t{2}}) {
+      register_bench(shells + "/cpu/threads:" + std::to_string(threads),
+                     [=](auto& state) { cpu_frames(state, scene, levels, threads); });
+    }
+    register_bench(shells + "/osmesa",
+                   [=](auto& state) { gl_frames(state, scene, levels, Backend::OsMesa); });
+  }
+}
+
+/// The same anatomy sampled ever more finely, in pictures of one size: cost against work.
+void register_growing() {
+  for (const std::int64_t side : {96, 160, 256, 384, 512, 640, 768}) {
+    const Scene scene{"growing/" + std::to_string(side), "", 400.0, 1400.0, side};
+    for (const double detail_px : {0.0, 0.5, 1.0}) {
+      register_bench(scene.name + "/detail:" + std::to_string(detail_px).substr(0, 3),
+                     [=](auto& state) { cpu_frames(state, scene, 24, 2, detail_px); });
+    }
+  }
+}
+
+}  // namespace
+}  // namespace nacre
+
+int main(int argc, char** argv) {
+  nacre::register_scene({"phantom", "", 400.0, 1400.0});
+  if (std::getenv("NACRE_TEST_DATA") != nullptr) {
+    nacre::register_scene({"chris_MRA", "chris_MRA.nii.gz", 20.0, 230.0});
+    nacre::register_scene({"aneurism", "aneurism_256_uint8.nrrd", 20.0, 250.0});
+    nacre::register_scene({"MR_Gd", "MR_Gd.nii.gz", 648.0, 1556.0});
+  }
+  nacre::register_growing();
+  benchmark::Initialize(&argc, argv);
+  benchmark::RunSpecifiedBenchmarks();
+  return 0;
+}

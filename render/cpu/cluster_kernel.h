@@ -1,0 +1,106 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "render/cpu/mesh_clusters.h"
+#include "render/plan.h"
+
+namespace nacre {
+
+/// Sub-pixel steps: vertices are rounded to 1/256 of a pixel, as GL rasterisers do.
+inline constexpr int kSubpixelBits = 8;
+inline constexpr int kSubpixels = 1 << kSubpixelBits;
+
+/// The largest side, in pixels, of what the kernels draw: differences of corners fit 16 bits, and
+/// twice an area 32.
+inline constexpr float kKernelSide = 126.0F;
+
+/// Largest target side: rounding to sub-pixels is exact for coordinates below 2^22 of them.
+inline constexpr int kMaxKernelTarget = 8192;
+
+/// How positions become pixels of a target, in floats as GL has it.
+struct ClusterProjection {
+  glm::vec4 row_x{0.0F};  ///< rows of `clip_from_local`
+  glm::vec4 row_y{0.0F};
+  glm::vec4 row_w{0.0F};
+  glm::vec4 row_z{0.0F};      ///< depth z as in `depth_z`; without perspective only
+  glm::vec2 z_of_w{0.0F};     ///< z = x + y w; perspective only
+  glm::vec3 view_from{0.0F};  ///< viewing direction, or the eye (perspective), local
+  float near_mm = 0.0F;       ///< of the near plane; perspective only
+  bool perspective = false;
+};
+
+/// Pixels of one thread: the greatest brightness seen in each.
+template <class Pixel>
+struct PixelTarget {
+  Pixel* pixels = nullptr;
+  int width = 0;
+  int height = 0;
+};
+
+/// What a shell shines with: a rank, the same everywhere, ...
+template <class Pixel>
+struct Brightness {
+  Pixel rank = 0;
+};
+
+/// ... or an emission that goes linearly with depth z from `at_near` (z = 1) to `at_far` (z = 0).
+template <>
+struct Brightness<float> {
+  float at_near = 0.0F;
+  float at_far = 0.0F;
+};
+
+/// Some clusters of one shell, to be drawn alike.
+template <class Pixel>
+struct ClusterDraw {
+  const Cluster* clusters = nullptr;  ///< the first; the arrays are those of `MeshClusters`
+  std::size_t count = 0;
+  const float* positions = nullptr;
+  const std::uint8_t* corners = nullptr;
+  Faces faces = Faces::Front;
+  Brightness<Pixel> brightness;
+};
+
+/// What a kernel left, and what it did.
+struct KernelResult {
+  std::size_t triangles = 0;  ///< looked at, padding included
+  std::size_t too_large = 0;  ///< clusters left to `draw_large_cluster`
+};
+
+/// Draws clusters: rejects what is outside the target or turned away, projects, rounds to
+/// sub-pixels, and covers the pixel centres inside each triangle, those on its upper and left edges
+/// included. All in integers after rounding: triangles that share an edge cover no centre on it
+/// twice, and none is left out. Pixels are bytes, words (ranks) or floats (emission with a cue, at
+/// the depth of the pixel's centre on the triangle's plane).
+///
+/// Clusters that reach the near plane or are larger than `kKernelSide` are not drawn but listed.
+///
+/// @param too_large  room for `draw.count` indices of clusters
+template <class Pixel>
+using DrawClusters = KernelResult (*)(const ClusterDraw<Pixel>& draw,
+                                      const ClusterProjection& projection,
+                                      const PixelTarget<Pixel>& target, std::uint32_t* too_large);
+
+/// Instruction sets a kernel is compiled for; all draw the same pixels.
+enum class InstructionSet { Baseline, Avx2 };
+
+/// The best set that the processor has.
+InstructionSet best_instruction_set() noexcept;
+
+/// The kernel for a set.
+/// @pre  the processor has it
+template <class Pixel>
+DrawClusters<Pixel> draw_clusters_for(InstructionSet set) noexcept;
+template <>
+DrawClusters<std::uint8_t> draw_clusters_for(InstructionSet set) noexcept;
+template <>
+DrawClusters<std::uint16_t> draw_clusters_for(InstructionSet set) noexcept;
+template <>
+DrawClusters<float> draw_clusters_for(InstructionSet set) noexcept;
+
+}  // namespace nacre

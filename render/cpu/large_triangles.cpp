@@ -1,0 +1,248 @@
+#include "render/cpu/large_triangles.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <span>
+#include <type_traits>
+#include <utility>
+
+namespace nacre {
+namespace {
+
+/// Pixels from the target's middle up to which corners are kept: edge functions stay below 2^60.
+constexpr double kReach = 1 << 19;
+
+/// A corner in sub-pixels.
+struct Point {
+  std::int64_t x = 0;
+  std::int64_t y = 0;
+  double depth = 0.0;  ///< z, or 1 / w (perspective)
+};
+
+/// A corner in clip coordinates x, y, depth z, w.
+using ClipPoint = glm::dvec4;
+
+/// At most 3 corners, and one more for each of 5 planes.
+struct Polygon {
+  std::array<ClipPoint, 8> corners{};
+  std::size_t count = 0;
+
+  void add(const ClipPoint& corner) { corners[count++] = corner; }
+};
+
+/// The part of a polygon where the plane's function is not negative.
+template <class Plane>
+Polygon clipped(const Polygon& polygon, const Plane& plane) {
+  Polygon result;
+  for (std::size_t i = 0; i < polygon.count; ++i) {
+    const ClipPoint& a = polygon.corners[i];
+    const ClipPoint& b = polygon.corners[(i + 1) % polygon.count];
+    const double at_a = plane(a);
+    const double at_b = plane(b);
+    if (at_a >= 0.0) result.add(a);
+    if ((at_a >= 0.0) == (at_b >= 0.0)) continue;
+    // From the corner that stays: the same point for both triangles of an edge.
+    const bool from_a = at_a >= 0.0;
+    const double part = from_a ? at_a / (at_a - at_b) : at_b / (at_b - at_a);
+    const ClipPoint& from = from_a ? a : b;
+    result.add(from + part * ((from_a ? b : a) - from));
+  }
+  return result;
+}
+
+/// Twice the area of the triangle a, b, p: what the edge from a to b says of p.
+std::int64_t edge_at(const Point& a, const Point& b, std::int64_t x, std::int64_t y) {
+  return (b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x);
+}
+
+std::int64_t floor_div(std::int64_t a, std::int64_t b) {
+  const std::int64_t quotient = a / b;
+  return quotient * b > a ? quotient - 1 : quotient;
+}
+
+/// Where a row's centres lie on the inner side of an edge: E(x) = constant - slope * x >= 0.
+void narrow(const Point& a, const Point& b, std::int64_t center_y, std::int64_t& first,
+            std::int64_t& last) {
+  const std::int64_t dx = b.x - a.x;
+  const std::int64_t dy = b.y - a.y;
+  const bool covered = dy < 0 || (dy == 0 && dx > 0);  // left and upper edges
+  const std::int64_t constant =
+      dx * (center_y - a.y) - dy * (kSubpixels / 2 - a.x) - (covered ? 0 : 1);
+  const std::int64_t slope = dy * kSubpixels;
+  if (slope > 0) {
+    last = std::min(last, floor_div(constant, slope));
+  } else if (slope < 0) {
+    first = std::max(first, -floor_div(constant, -slope));
+  } else if (constant < 0) {
+    last = first - 1;
+  }
+}
+
+template <class Pixel>
+class LargeCluster {
+ public:
+  LargeCluster(const ClusterDraw<Pixel>& draw, const ClusterProjection& projection,
+               const PixelTarget<Pixel>& target)
+      : draw_(draw),
+        projection_(projection),
+        target_(target),
+        half_width_(0.5F * static_cast<float>(target.width)),
+        half_height_(0.5F * static_cast<float>(target.height)) {}
+
+  void run() const {
+    const Cluster& cluster = *draw_.clusters;
+    const std::size_t count = cluster.triangles;
+    const std::span corners(draw_.corners + cluster.first_corner, 3 * count);
+    for (std::size_t t = 0; t < count; ++t) {
+      const std::array<std::size_t, 3> triangle{corners[t], corners[t + count],
+                                                corners[t + 2 * count]};
+      if (triangle[0] != triangle[1]) draw(triangle);  // else padding
+    }
+  }
+
+ private:
+  glm::vec3 position(std::size_t vertex) const {
+    const Cluster& cluster = *draw_.clusters;
+    const float* x = draw_.positions + cluster.first_position + vertex;
+    return {x[0], x[cluster.vertices], x[2 * std::size_t{cluster.vertices}]};
+  }
+
+  static float at(const glm::vec4& row, const glm::vec3& p) {
+    return row.x * p.x + row.y * p.y + row.z * p.z + row.w;
+  }
+
+  /// A pixel coordinate in sub-pixels, to the nearest.
+  static std::int64_t rounded(double pixel) { return std::llrint(pixel * kSubpixels); }
+
+  bool in_reach(const glm::vec2& pixel) const {
+    return std::abs(pixel.x - half_width_) < kReach && std::abs(pixel.y - half_height_) < kReach;
+  }
+
+  /// The triangle as the kernels would round it; false where that takes clipping.
+  bool project(const std::array<std::size_t, 3>& triangle, std::array<Point, 3>& points) const {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const glm::vec3 p = position(triangle[i]);
+      glm::vec2 clip(at(projection_.row_x, p), at(projection_.row_y, p));
+      float depth = at(projection_.row_z, p);
+      if (projection_.perspective) {
+        const float w = at(projection_.row_w, p);
+        if (!(w > projection_.near_mm)) return false;
+        depth = 1.0F / w;
+        clip *= depth;
+      }
+      const glm::vec2 pixel(clip.x * half_width_ + half_width_,
+                            clip.y * half_height_ + half_height_);
+      if (!in_reach(pixel)) return false;
+      points[i] = {rounded(pixel.x), rounded(pixel.y), depth};
+    }
+    return true;
+  }
+
+  void draw(const std::array<std::size_t, 3>& triangle) const {
+    std::array<Point, 3> points;
+    if (project(triangle, points)) {
+      fill(points[0], points[1], points[2]);
+    } else {
+      draw_clipped(triangle);
+    }
+  }
+
+  void draw_clipped(const std::array<std::size_t, 3>& triangle) const {
+    Polygon polygon;
+    for (const std::size_t vertex : triangle) {
+      const glm::vec3 p = position(vertex);
+      polygon.add({at(projection_.row_x, p), at(projection_.row_y, p), at(projection_.row_z, p),
+                   at(projection_.row_w, p)});
+    }
+    const double across = kReach / half_width_;
+    const double down = kReach / half_height_;
+    const double near = projection_.perspective ? projection_.near_mm : 0.5;
+    polygon = clipped(polygon, [&](const ClipPoint& p) { return p.w - near; });
+    polygon = clipped(polygon, [&](const ClipPoint& p) { return across * p.w - p.x; });
+    polygon = clipped(polygon, [&](const ClipPoint& p) { return across * p.w + p.x; });
+    polygon = clipped(polygon, [&](const ClipPoint& p) { return down * p.w - p.y; });
+    polygon = clipped(polygon, [&](const ClipPoint& p) { return down * p.w + p.y; });
+    for (std::size_t i = 2; i < polygon.count; ++i) {
+      fill(rounded(polygon.corners[0]), rounded(polygon.corners[i - 1]),
+           rounded(polygon.corners[i]));
+    }
+  }
+
+  Point rounded(const ClipPoint& corner) const {
+    return {rounded(corner.x / corner.w * half_width_ + half_width_),
+            rounded(corner.y / corner.w * half_height_ + half_height_),
+            projection_.perspective ? 1.0 / corner.w : corner.z};
+  }
+
+  void fill(const Point& a, Point b, Point c) const {
+    std::int64_t area = edge_at(a, b, c.x, c.y);
+    // Front faces are counter-clockwise, which has a negative area where y points down.
+    if (draw_.faces == Faces::Front || (draw_.faces == Faces::Both && area < 0)) {
+      std::swap(b, c);
+      area = -area;
+    }
+    if (area <= 0) return;
+    const auto [top, bottom] = std::minmax({a.y, b.y, c.y});
+    const std::int64_t half = kSubpixels / 2;
+    const std::int64_t first_row = std::max<std::int64_t>(0, -floor_div(half - top, kSubpixels));
+    const std::int64_t last_row =
+        std::min<std::int64_t>(target_.height - 1, floor_div(bottom - half, kSubpixels));
+    for (std::int64_t y = first_row; y <= last_row; ++y) {
+      std::int64_t first = 0;
+      std::int64_t last = target_.width - 1;
+      const std::int64_t center_y = y * kSubpixels + half;
+      narrow(a, b, center_y, first, last);
+      narrow(b, c, center_y, first, last);
+      narrow(c, a, center_y, first, last);
+      Pixel* row = target_.pixels + y * target_.width;
+      for (std::int64_t x = first; x <= last; ++x) {
+        row[x] = std::max(row[x], value(a, b, c, x * kSubpixels + half, center_y));
+      }
+    }
+  }
+
+  Pixel value(const Point& a, const Point& b, const Point& c, std::int64_t x,
+              std::int64_t y) const {
+    if constexpr (std::is_same_v<Pixel, float>) {
+      const auto at_a = static_cast<double>(edge_at(b, c, x, y));
+      const auto at_b = static_cast<double>(edge_at(c, a, x, y));
+      const auto at_c = static_cast<double>(edge_at(a, b, x, y));
+      const double depth =
+          (at_a * a.depth + at_b * b.depth + at_c * c.depth) / (at_a + at_b + at_c);
+      const double z =
+          projection_.perspective ? projection_.z_of_w.x + projection_.z_of_w.y / depth : depth;
+      const Brightness<float>& ends = draw_.brightness;
+      return static_cast<float>(ends.at_far +
+                                double{ends.at_near - ends.at_far} * std::clamp(z, 0.0, 1.0));
+    } else {
+      return draw_.brightness.rank;
+    }
+  }
+
+  const ClusterDraw<Pixel>& draw_;
+  const ClusterProjection& projection_;
+  const PixelTarget<Pixel>& target_;
+  float half_width_;
+  float half_height_;
+};
+
+}  // namespace
+
+template <class Pixel>
+void draw_large_cluster(const ClusterDraw<Pixel>& draw, const ClusterProjection& projection,
+                        const PixelTarget<Pixel>& target) {
+  LargeCluster<Pixel>(draw, projection, target).run();
+}
+
+template void draw_large_cluster(const ClusterDraw<std::uint8_t>&, const ClusterProjection&,
+                                 const PixelTarget<std::uint8_t>&);
+template void draw_large_cluster(const ClusterDraw<std::uint16_t>&, const ClusterProjection&,
+                                 const PixelTarget<std::uint16_t>&);
+template void draw_large_cluster(const ClusterDraw<float>&, const ClusterProjection&,
+                                 const PixelTarget<float>&);
+
+}  // namespace nacre

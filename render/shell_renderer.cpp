@@ -1,0 +1,25 @@
+#include "render/shell_renderer.h"
+
+#include <fmt/core.h>
+
+#include "core/error.h"
+
+namespace nacre {
+
+void check_upload(const ShellSet& set, const SceneFacts& facts,
+                  std::span<const std::uint32_t> shells) {
+  for (const std::uint32_t shell : shells) {
+    if (shell >= set.shells.size() || shell >= facts.shells.size()) {
+      throw Error(ErrorCode::BadArgument,
+                  fmt::format("shell {}: found {} in the set", shell + 1, set.shells.size()));
+    }
+    const std::size_t found = set.shells[shell].surface.triangles.size();
+    if (found != facts.shells[shell].triangles) {
+      throw Error(ErrorCode::BadArgument,
+                  fmt::format("shell {}: found {} triangles, expected {}", shell + 1, found,
+                              facts.shells[shell].triangles));
+    }
+  }
+}
+
+}  // namespace nacre
