@@ -5,6 +5,9 @@
 #include <filesystem>
 #include <memory>
 
+#include "app/camera_flags.h"
+#include "app/certificate_words.h"
+#include "app/set_certificate.h"
 #include "app/shell_building.h"
 #include "app/thread_limit.h"
 #include "core/error.h"
@@ -17,11 +20,14 @@ namespace {
 
 using nlohmann::ordered_json;
 
+constexpr const char* kNoCertificate = "none";
+
 struct BuildFlags {
   CommonFlags common;
   VolumeFlags volume;
   ShellFlags shells;
   std::string output;
+  std::string certificate = "512x512";
 };
 
 std::size_t triangle_count(const CompressedSet& built) {
@@ -50,10 +56,25 @@ void check_name(const std::string& output) {
               fmt::format("{}: found another ending, expected .glb", output));
 }
 
+/// Null if none is wanted.
+ordered_json certificate_of(const BuildFlags& flags, const CompressedSet& built, Reporter& reporter,
+                            BuildFigures& figures) {
+  if (flags.certificate == kNoCertificate) return {};
+  const glm::ivec2 size = parse_size("--certificate", flags.certificate);
+  ordered_json certificate = certify_set(flags.volume, size, built, reporter, figures);
+  say_certificate(certificate, reporter);
+  return certificate;
+}
+
+void check_certificate(const std::string& certificate) {
+  if (certificate != kNoCertificate) parse_size("--certificate", certificate);
+}
+
 void run_build(const BuildFlags& flags) {
   Reporter reporter(flags.common);
   const ThreadLimit limit(flags.common);
   check_name(flags.output);
+  check_certificate(flags.certificate);
   AtomicFile file(flags.output);  // before the work, which a bad name would waste
   Stopwatch total;
   Stopwatch watch;
@@ -66,7 +87,10 @@ void run_build(const BuildFlags& flags) {
   const ShellSet& set = built.set;
   const ordered_json levels = level_list(built);
   for (const ordered_json& level : levels) reporter.detail("  " + level.dump());
-  const std::vector<std::byte> bytes = assemble_shell_set(set, built.shells);
+  const ordered_json certificate = certificate_of(flags, built, reporter, figures);
+  const std::vector<std::byte> bytes = assemble_shell_set(
+      set, built.shells,
+      {.certificate_json = certificate.is_null() ? std::string() : certificate.dump()});
   watch.lap();
   file.write(bytes);
   file.commit();
@@ -88,12 +112,14 @@ void run_build(const BuildFlags& flags) {
   json["left_out"] = figures.left_out;
   json["nesting"] = figures.nesting;
   if (!figures.placement.is_null()) json["predicted"] = figures.placement;
+  if (!certificate.is_null()) json["certificate"] = certificate;
   json["seconds"] = {{"read", reading},
                      {"emission", figures.emission},
                      {"extract", figures.extract},
                      {"simplify", figures.simplify},
                      {"encode", figures.encode},
                      {"crossings", figures.crossings},
+                     {"certificate", figures.certificate},
                      {"write", writing},
                      {"total", total.lap()}};
   json["peak_rss_bytes"] = peak_rss_bytes();
@@ -109,6 +135,10 @@ void add_build_verb(CLI::App& app, int& /*status*/) {
   verb->add_option("VOLUME", flags->volume.path, "Volume file, or folder of a DICOM series")
       ->required();
   verb->add_option("-o,--output", flags->output, "Shell set, .glb")->required();
+  verb->add_option("--certificate", flags->certificate,
+                   "WxH of the exact pictures that the set's error is measured with and stated in "
+                   "the file; none: no certificate")
+      ->capture_default_str();
   add_shell_flags(*verb, flags->shells);
   add_volume_reading_flags(*verb, flags->volume);
   add_emission_flags(*verb, flags->volume);

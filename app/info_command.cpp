@@ -9,6 +9,7 @@
 #include <memory>
 #include <string>
 
+#include "app/certificate_words.h"
 #include "app/command.h"
 #include "app/tool_info.h"
 #include "app/volume_flags.h"
@@ -210,6 +211,9 @@ void say_shells(const ShellFileInfo& info, Reporter& reporter) {
                              set.grid->range_mm / (std::exp2(set.grid->bits) - 1.0)));
   }
   say_pruned(set.pruned, reporter);
+  if (!info.certificate_json.empty()) {
+    say_certificate(ordered_json::parse(info.certificate_json), reporter);
+  }
   reporter.say("shell   emission       value    shown as   triangles    vertices       bytes");
   for (std::size_t i = 0; i < info.levels.size(); ++i) {
     const Shell& shell = set.shells[i];

@@ -34,6 +34,7 @@ struct BuildFigures {
   double simplify = 0.0;
   double encode = 0.0;
   double crossings = 0.0;
+  double certificate = 0.0;
   std::size_t extracted_triangles = 0;
   nlohmann::ordered_json left_out = nlohmann::ordered_json::array();  ///< {"what", "why", ...} each
   nlohmann::ordered_json nesting;

@@ -1,5 +1,6 @@
 // What a build without the shell tools says where one with them works.
 #include "app/error_explaining.h"
+#include "app/set_certificate.h"
 #include "app/shell_building.h"
 #include "app/verify_command.h"
 #include "core/error.h"
@@ -28,6 +29,12 @@ CompressedSet build_compressed_set(const ShellFlags& /*flags*/, EmissionVolume /
 
 ExplainedError explain_error(const ExplainFlags& /*flags*/, std::optional<Image> /*picture*/,
                              Reporter& /*reporter*/) {
+  refuse();
+}
+
+nlohmann::ordered_json certify_set(const VolumeFlags& /*flags*/, const glm::ivec2& /*size*/,
+                                   const CompressedSet& /*built*/, Reporter& /*reporter*/,
+                                   BuildFigures& /*figures*/) {
   refuse();
 }
 

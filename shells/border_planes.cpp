@@ -6,7 +6,7 @@
 
 #include "core/quantization_grid.h"
 #include "core/volume_geometry.h"
-#include "shells/trilinear_field.h"
+#include "shells/surface_emission.h"
 
 namespace nacre {
 

@@ -10,6 +10,31 @@
 namespace nacre {
 namespace {
 
+/// The values of 4 x 4 x 4 samples, x fastest.
+using Block = std::array<double, 64>;
+
+/// @param first  sample; beyond the volume a value is that of the nearest sample
+template <class T>
+void load(const Volume& volume, const glm::ivec3& first, Block& block) {
+  const T* samples = samples_as<T>(volume).data();
+  const auto place = [&](int index, int axis) {
+    return static_cast<std::size_t>(std::clamp<std::int64_t>(index, 0, volume.dims[axis] - 1));
+  };
+  const std::array<std::size_t, 4> x{place(first.x, 0), place(first.x + 1, 0),
+                                     place(first.x + 2, 0), place(first.x + 3, 0)};
+  const auto nx = static_cast<std::size_t>(volume.dims.x);
+  const auto ny = static_cast<std::size_t>(volume.dims.y);
+  std::size_t i = 0;
+  for (int dz = 0; dz < 4; ++dz) {
+    for (int dy = 0; dy < 4; ++dy) {
+      const T* row = samples + nx * (place(first.y + dy, 1) + ny * place(first.z + dz, 2));
+      for (const std::size_t column : x) {
+        block[i++] = volume.slope * static_cast<double>(row[column]) + volume.intercept;
+      }
+    }
+  }
+}
+
 /// A convex polygon: a triangle cut by planes along three axes has at most nine corners.
 struct Polygon {
   std::array<glm::dvec3, 12> corners;
@@ -42,7 +67,7 @@ Polygon clipped(const Polygon& polygon, int axis, double at, bool above) {
 class CellFunction {
  public:
   /// @param block  the cell's corners are its samples 1 and 2 along each axis
-  explicit CellFunction(const TrilinearField::Block& block) {
+  explicit CellFunction(const Block& block) {
     for (std::size_t corner = 0; corner < 8; ++corner) {
       const std::size_t x = 1 + (corner & 1U);
       const std::size_t y = 1 + (corner >> 1U & 1U);
@@ -93,7 +118,7 @@ ValueBounds bernstein_bounds(const CellFunction& f, const glm::dvec3& a, const g
 
 /// A cell of the field around a point, its surroundings, and the corner it is measured from.
 struct Surroundings {
-  TrilinearField::Block block;
+  Block block;
   glm::dvec3 corner;
 };
 
@@ -102,12 +127,15 @@ Surroundings surroundings_of(const TrilinearField& field, const glm::dvec3& p) {
   cell.corner = glm::floor(p);
   // Far outside nothing changes any more, and integers would overflow.
   const glm::dvec3 first = glm::clamp(cell.corner, field.box().lo - 4.0, field.box().hi + 4.0);
-  field.load(glm::ivec3(first) - 1, cell.block);
+  const Volume& volume = field.volume();
+  visit_scalar_type(volume.type, [&](auto zero) {
+    load<decltype(zero)>(volume, glm::ivec3(first) - 1, cell.block);
+  });
   return cell;
 }
 
 /// The largest difference of neighbouring samples along an axis in a block.
-double steepest(const TrilinearField::Block& block, int axis) {
+double steepest(const Block& block, int axis) {
   const std::size_t stride = axis == 0 ? 1 : axis == 1 ? 4 : 16;
   double most = 0.0;
   for (std::size_t i = 0; i + stride < block.size(); ++i) {

@@ -48,7 +48,7 @@ class Measurement {
               double tolerance, double step_mm)
       : field_(field),
         emission_(emission),
-        error_(field, emission, level, border_voxels(field, step_mm)),
+        level_(level),
         border_(border_voxels(field, step_mm)),
         tolerance_(tolerance),
         step_mm_(step_mm) {}
@@ -86,7 +86,7 @@ class Measurement {
 
   /// One sample, which stands for a part of the area.
   void take(const glm::dvec3& p, double area, Sums& sums) const {
-    const double error = error_(p);
+    const double error = level_error(p);
     sums.area += area;
     sums.squared_error += area * error * error;
     if (error > tolerance_) sums.beyond_area += area;
@@ -95,6 +95,18 @@ class Measurement {
     if (error > most.max_error_less_snapping) {
       most.max_error_less_snapping = std::max(most.max_error_less_snapping, error - by_snapping(p));
     }
+  }
+
+  /// As `LevelError`, but with a border as wide as snapping moves positions.
+  double level_error(const glm::dvec3& p_mm) const {
+    const glm::dvec3 p = field_.voxel_from_local(p_mm);
+    const double error = emission_(field_.value(p)) - level_;
+    if (error <= 0.0) return -error;
+    const VoxelBox& box = field_.box();
+    for (int axis = 0; axis < 3; ++axis) {
+      if (p[axis] <= box.lo[axis] + border_ || p[axis] >= box.hi[axis] - border_) return 0.0;
+    }
+    return error;
   }
 
   /// How much a step along each axis can change the error here.
@@ -116,7 +128,7 @@ class Measurement {
 
   const TrilinearField& field_;
   const EmissionMap& emission_;
-  LevelError error_;
+  double level_;
   double border_;
   double tolerance_;
   double step_mm_;
@@ -180,6 +192,7 @@ SurfaceEmission measure_surface_emission(const TriangleMesh& mesh, const Triline
     measurement.sample(t, part);
   });
   SurfaceEmission result = sums.extremes;
+  result.area_mm2 = sums.area;
   if (sums.area > 0.0) {
     result.rms_error = std::sqrt(sums.squared_error / sums.area);
     result.beyond_tolerance = sums.beyond_area / sums.area;

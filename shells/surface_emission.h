@@ -8,6 +8,9 @@
 
 namespace nacre {
 
+/// Surfaces are stored in float: a vertex of the border plane is this close to it, in voxels.
+inline constexpr double kOnBorderVoxels = 1e-3;
+
 /// The emission on a shell's surface, which would be its level everywhere on an exact contour.
 struct SurfaceEmission {
   /// Bounds of the emission over all triangles but those within one border plane of the volume
@@ -15,8 +18,9 @@ struct SurfaceEmission {
   double lo = 1.0;
   double hi = 0.0;
 
-  double max_error = 0.0;  ///< largest |phi - t_k| of the samples (`LevelError`)
+  double max_error = 0.0;  ///< largest |phi - t_k| of the samples (as `LevelError`)
   double rms_error = 0.0;  ///< its root mean square over the surface's area
+  double area_mm2 = 0.0;   ///< that the samples stand for
   /// Part of the area that is off by more than the tolerance.
   double beyond_tolerance = 0.0;
   /// Largest error of a sample less what moving it by a grid step along each axis can account for:

@@ -9,6 +9,9 @@
 namespace nacre {
 namespace {
 
+// Surfaces are stored in float: a vertex of the border plane is this close to it, in voxels.
+constexpr double kOnBorder = 1e-3;
+
 /// A coordinate's two samples and the weight of the second.
 struct Cell {
   std::size_t lower;
@@ -32,8 +35,7 @@ double mix(double a, double b, double s) noexcept { return a + (b - a) * s; }
 TrilinearField::TrilinearField(const Volume& volume)
     : volume_(volume),
       box_(voxel_box(volume.dims)),
-      value_(visit_scalar_type(volume.type, [](auto zero) { return &value_of<decltype(zero)>; })),
-      load_(visit_scalar_type(volume.type, [](auto zero) { return &load_from<decltype(zero)>; })) {
+      value_(visit_scalar_type(volume.type, [](auto zero) { return &value_of<decltype(zero)>; })) {
   const double handed = handedness(volume.world_from_voxel);
   if (!std::isfinite(handed) || handed == 0.0) {
     throw Error(ErrorCode::BadArgument, "volume: found a singular matrix, expected a regular one");
@@ -63,37 +65,13 @@ double TrilinearField::value_of(const TrilinearField& field, const glm::dvec3& p
   return volume.slope * mix(near, far, z.weight) + volume.intercept;
 }
 
-template <class T>
-void TrilinearField::load_from(const TrilinearField& field, const glm::ivec3& first,
-                               Block& block) noexcept {
-  const Volume& volume = field.volume_;
-  const T* samples = samples_as<T>(volume).data();
-  const auto place = [&](int index, int axis) {
-    return static_cast<std::size_t>(std::clamp<std::int64_t>(index, 0, volume.dims[axis] - 1));
-  };
-  const std::size_t x[4] = {place(first.x, 0), place(first.x + 1, 0), place(first.x + 2, 0),
-                            place(first.x + 3, 0)};
-  const auto nx = static_cast<std::size_t>(volume.dims.x);
-  const auto ny = static_cast<std::size_t>(volume.dims.y);
-  std::size_t i = 0;
-  for (int dz = 0; dz < 4; ++dz) {
-    for (int dy = 0; dy < 4; ++dy) {
-      const T* row = samples + nx * (place(first.y + dy, 1) + ny * place(first.z + dz, 2));
-      for (const std::size_t column : x) {
-        block[i++] = volume.slope * static_cast<double>(row[column]) + volume.intercept;
-      }
-    }
-  }
-}
-
 double LevelError::operator()(const glm::dvec3& p_mm) const noexcept {
   const glm::dvec3 p = field_.voxel_from_local(p_mm);
   const double error = emission_(field_.value(p)) - level_;
   if (error <= 0.0) return -error;
   const VoxelBox& box = field_.box();
   for (int axis = 0; axis < 3; ++axis) {
-    if (p[axis] <= box.lo[axis] + border_voxels_ || p[axis] >= box.hi[axis] - border_voxels_)
-      return 0.0;
+    if (p[axis] <= box.lo[axis] + kOnBorder || p[axis] >= box.hi[axis] - kOnBorder) return 0.0;
   }
   return error;
 }

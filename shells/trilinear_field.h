@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
@@ -28,17 +27,11 @@ class TrilinearField {
   /// The value at a position in voxel coordinates; beyond the box that of its nearest point.
   double value(const glm::dvec3& p_voxel) const noexcept { return value_(*this, p_voxel); }
 
-  /// The values of 4 x 4 x 4 samples from `first` on, x fastest; beyond the volume those of its
-  /// nearest sample.
-  using Block = std::array<double, 64>;
-  void load(const glm::ivec3& first, Block& block) const noexcept { load_(*this, first, block); }
-
   const VoxelBox& box() const noexcept { return box_; }
 
+  const Volume& volume() const noexcept { return volume_; }
+
  private:
-  template <class T>
-  static void load_from(const TrilinearField& field, const glm::ivec3& first,
-                        Block& block) noexcept;
   template <class T>
   static double value_of(const TrilinearField& field, const glm::dvec3& p_voxel) noexcept;
 
@@ -46,11 +39,7 @@ class TrilinearField {
   VoxelBox box_;
   glm::dmat4 voxel_from_local_;
   double (*value_)(const TrilinearField&, const glm::dvec3&) noexcept;
-  void (*load_)(const TrilinearField&, const glm::ivec3&, Block&) noexcept;
 };
-
-/// Surfaces are stored in float: a vertex of the border plane is this close to it, in voxels.
-inline constexpr double kOnBorderVoxels = 1e-3;
 
 /// How far off its level a surface is at a point: |phi(p) - t_k|, in emission units.
 ///
@@ -60,11 +49,8 @@ class LevelError {
  public:
   /// @param field, emission  must outlive this
   /// @param level            t_k
-  /// @param border_voxels    how far from the border plane a point still lies on it: what float
-  ///                         positions are off, more on a grid
-  LevelError(const TrilinearField& field, const EmissionMap& emission, double level,
-             double border_voxels = kOnBorderVoxels)
-      : field_(field), emission_(emission), level_(level), border_voxels_(border_voxels) {}
+  LevelError(const TrilinearField& field, const EmissionMap& emission, double level)
+      : field_(field), emission_(emission), level_(level) {}
 
   /// @param p_mm  LPS, relative to the centre of the volume's box
   double operator()(const glm::dvec3& p_mm) const noexcept;
@@ -73,7 +59,6 @@ class LevelError {
   const TrilinearField& field_;
   const EmissionMap& emission_;
   double level_;
-  double border_voxels_;
 };
 
 }  // namespace nacre

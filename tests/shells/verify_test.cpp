@@ -63,6 +63,8 @@ TEST(Verify, FindsEachBrokenPromise) {
   EXPECT_EQ(broken([](TriangleMesh& mesh) { mesh.triangles.pop_back(); }), "3 open edges");
   EXPECT_EQ(broken([](TriangleMesh& mesh) { std::swap(mesh.triangles[0].x, mesh.triangles[0].y); }),
             "3 edges of opposite orientation");
+  EXPECT_EQ(broken([](TriangleMesh& mesh) { mesh.triangles.push_back(mesh.triangles[0]); }),
+            "3 edges of more than two triangles");
   EXPECT_EQ(broken([](TriangleMesh& mesh) { mesh.positions[0].x += 1e-3F; }),
             "1 positions off the grid");
   EXPECT_NE(broken([](TriangleMesh& mesh) {
