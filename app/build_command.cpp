@@ -6,6 +6,9 @@
 #include <memory>
 #include <span>
 
+#include "app/camera_flags.h"
+#include "app/certificate_words.h"
+#include "app/set_certificate.h"
 #include "app/shell_building.h"
 #include "app/thread_limit.h"
 #include "app/view_page.h"
@@ -19,11 +22,14 @@ namespace {
 
 using nlohmann::ordered_json;
 
+constexpr const char* kNoCertificate = "none";
+
 struct BuildFlags {
   CommonFlags common;
   VolumeFlags volume;
   ShellFlags shells;
   std::string output;
+  std::string certificate = "512x512";
 };
 
 std::size_t triangle_count(const CompressedSet& built) {
@@ -39,6 +45,7 @@ ordered_json level_list(const CompressedSet& built) {
     levels.push_back({{"emission", shell.emission},
                       {"value", shell.value},
                       {"representative", shell.representative},
+                      {"sum_representative", sum_representative(shell)},
                       {"triangles", built.shells[k].triangles},
                       {"vertices", built.shells[k].vertices}});
   }
@@ -58,10 +65,25 @@ void write_output(AtomicFile& file, const std::string& output, std::span<const s
   file.commit();
 }
 
+/// Null if none is wanted.
+ordered_json certificate_of(const BuildFlags& flags, const CompressedSet& built, Reporter& reporter,
+                            BuildFigures& figures) {
+  if (flags.certificate == kNoCertificate) return {};
+  const glm::ivec2 size = parse_size("--certificate", flags.certificate);
+  ordered_json certificate = certify_set(flags.volume, size, built, reporter, figures);
+  say_certificate(certificate, reporter);
+  return certificate;
+}
+
+void check_certificate(const std::string& certificate) {
+  if (certificate != kNoCertificate) parse_size("--certificate", certificate);
+}
+
 void run_build(const BuildFlags& flags) {
   Reporter reporter(flags.common);
   const ThreadLimit limit(flags.common);
   check_name(flags.output);
+  check_certificate(flags.certificate);
   AtomicFile file(flags.output);  // before the work, which a bad name would waste
   Stopwatch total;
   Stopwatch watch;
@@ -74,7 +96,10 @@ void run_build(const BuildFlags& flags) {
   const ShellSet& set = built.set;
   const ordered_json levels = level_list(built);
   for (const ordered_json& level : levels) reporter.detail("  " + level.dump());
-  const std::vector<std::byte> bytes = assemble_shell_set(set, built.shells);
+  const ordered_json certificate = certificate_of(flags, built, reporter, figures);
+  const std::vector<std::byte> bytes = assemble_shell_set(
+      set, built.shells,
+      {.certificate_json = certificate.is_null() ? std::string() : certificate.dump()});
   watch.lap();
   write_output(file, flags.output, bytes);
   const double writing = watch.lap();
@@ -92,11 +117,17 @@ void run_build(const BuildFlags& flags) {
   json["extracted_triangles"] = figures.extracted_triangles;
   json["triangles"] = triangle_count(built);
   json["bytes"] = bytes.size();
+  json["left_out"] = figures.left_out;
+  json["nesting"] = figures.nesting;
+  if (!figures.placement.is_null()) json["predicted"] = figures.placement;
+  if (!certificate.is_null()) json["certificate"] = certificate;
   json["seconds"] = {{"read", reading},
                      {"emission", figures.emission},
                      {"extract", figures.extract},
                      {"simplify", figures.simplify},
                      {"encode", figures.encode},
+                     {"crossings", figures.crossings},
+                     {"certificate", figures.certificate},
                      {"write", writing},
                      {"total", total.lap()}};
   json["peak_rss_bytes"] = peak_rss_bytes();
@@ -118,6 +149,10 @@ void add_build_verb(CLI::App& app, int& /*status*/) {
           "-o,--output", flags->output,
           "Shell set, .glb; or .html: a page that holds the set and shows it in a browser, offline")
       ->required();
+  verb->add_option("--certificate", flags->certificate,
+                   "WxH of the exact pictures that the set's error is measured with and stated in "
+                   "the file; none: no certificate")
+      ->capture_default_str();
   add_shell_flags(*verb, flags->shells);
   add_volume_reading_flags(*verb, flags->volume);
   add_emission_flags(*verb, flags->volume);

@@ -13,11 +13,13 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 
-glm::ivec2 parse_size(const std::string& text) {
+}  // namespace
+
+glm::ivec2 parse_size(const std::string& flag, const std::string& text) {
   const auto parts = split(text, 'x');
   if (parts.size() == 2) {
     const auto side = [&](const std::string& part) {
-      return parse_integers("--size", part, 1, "WxH in pixels").front();
+      return parse_integers(flag, part, 1, "WxH in pixels").front();
     };
     const long long width = side(parts[0]);
     const long long height = side(parts[1]);
@@ -26,10 +28,8 @@ glm::ivec2 parse_size(const std::string& text) {
     }
   }
   throw Error(ErrorCode::BadArgument,
-              fmt::format("--size: found '{}', expected WxH, each from 1 to 32768 pixels", text));
+              fmt::format("{}: found '{}', expected WxH, each from 1 to 32768 pixels", flag, text));
 }
-
-}  // namespace
 
 void add_camera_flags(CLI::App& verb, CameraFlags& flags) {
   const std::string group = "Camera";
@@ -65,7 +65,7 @@ void add_camera_flags(CLI::App& verb, CameraFlags& flags) {
 
 CameraOptions camera_options(const CameraFlags& flags) {
   CameraOptions options;
-  options.size = parse_size(flags.size);
+  options.size = parse_size("--size", flags.size);
   const auto view = named_view(flags.view);
   if (!view) {
     throw Error(ErrorCode::BadArgument,

@@ -28,6 +28,11 @@ struct CameraFlags {
   bool has_distance = false;     ///< else the usual one
 };
 
+/// "WxH" as a picture's size.
+/// @param flag    for the error
+/// @throws Error  BadArgument for anything but two numbers from 1 to 32768
+glm::ivec2 parse_size(const std::string& flag, const std::string& text);
+
 /// Adds --size, --view, --azimuth, ... and --turntable.
 void add_camera_flags(CLI::App& verb, CameraFlags& flags);
 

@@ -92,5 +92,6 @@ void add_reference_verb(CLI::App& app, int& status);
 void add_render_verb(CLI::App& app, int& status);
 void add_compare_verb(CLI::App& app, int& status);
 void add_info_verb(CLI::App& app, int& status);
+void add_verify_verb(CLI::App& app, int& status);
 
 }  // namespace nacre

@@ -1,5 +1,7 @@
 #include "app/exact_scene.h"
 
+#include "core/error.h"
+
 namespace nacre {
 
 ExactScene::ExactScene(const ExactFlags& flags)
@@ -18,9 +20,14 @@ bool ExactScene::shows_shells() const {
 
 void ExactScene::set_emission(const EmissionMap& emission) {
   if (!shows_shells()) return;
+  if (level_flags_.placement == "optimal") {
+    throw Error(ErrorCode::Unsupported,
+                "--placement: found optimal, expected uniform or a list of levels for an exact "
+                "picture (nacre build prints the levels it finds)");
+  }
   levels_ = levels_of(level_flags_, emission, options_.mode == PictureMode::Iso ? "0.5" : "24");
-  for (const auto& [t, representative] : levels_) {
-    options_.levels.push_back({emission.value_at(t), representative});
+  for (const Level& level : levels_) {
+    options_.levels.push_back({emission.value_at(level.emission), level.representative});
   }
 }
 

@@ -9,6 +9,7 @@
 #include <memory>
 #include <string>
 
+#include "app/certificate_words.h"
 #include "app/command.h"
 #include "app/tool_info.h"
 #include "app/volume_flags.h"
@@ -129,6 +130,36 @@ void say_volume(const VolumeFile& file, const ValueRange& range, const Window& w
   }
 }
 
+ordered_json components_json(const ComponentCount& count) {
+  return {{"components", count.components},
+          {"triangles", count.triangles},
+          {"volume_mm3", count.volume_mm3}};
+}
+
+ordered_json pruned_json(const Pruning& pruned) {
+  return {{"min_component_mm3", pruned.min_component_mm3},
+          {"inner_pruned", pruned.inner_pruned},
+          {"specks", components_json(pruned.specks)},
+          {"inner", components_json(pruned.inner)},
+          {"largest_emission", pruned.largest_emission}};
+}
+
+void say_pruned(const Pruning& pruned, Reporter& reporter) {
+  if (pruned.specks.components > 0) {
+    reporter.say(
+        fmt::format("left out     {} specks under {:.4g} mm3 ({:.4g} mm3), at most {:.3f} of "
+                    "emission in a pixel",
+                    pruned.specks.components, pruned.min_component_mm3, pruned.specks.volume_mm3,
+                    pruned.largest_emission));
+  }
+  if (pruned.inner_pruned) {
+    reporter.say(fmt::format(
+        "left out     {} components inside their own shell ({:.4g} mm3): for maximum projections "
+        "without slab only",
+        pruned.inner.components, pruned.inner.volume_mm3));
+  }
+}
+
 ordered_json to_json(const ShellFileInfo& info) {
   const ShellSet& set = info.set;
   ordered_json levels = ordered_json::array();
@@ -154,6 +185,7 @@ ordered_json to_json(const ShellFileInfo& info) {
   json["placement"] = set.placement;
   json["tolerance"] = set.tolerance;
   if (set.grid) json["quantization_bits"] = set.grid->bits;
+  json["pruned"] = pruned_json(set.pruned);
   json["levels"] = levels;
   if (!info.certificate_json.empty()) {
     json["certificate"] = ordered_json::parse(info.certificate_json);
@@ -177,6 +209,10 @@ void say_shells(const ShellFileInfo& info, Reporter& reporter) {
   if (set.grid) {
     reporter.say(fmt::format("grid         {} bits, {:.4g} mm a step", set.grid->bits,
                              set.grid->range_mm / (std::exp2(set.grid->bits) - 1.0)));
+  }
+  say_pruned(set.pruned, reporter);
+  if (!info.certificate_json.empty()) {
+    say_certificate(ordered_json::parse(info.certificate_json), reporter);
   }
   reporter.say("shell   emission       value    shown as   triangles    vertices       bytes");
   for (std::size_t i = 0; i < info.levels.size(); ++i) {

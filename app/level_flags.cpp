@@ -28,8 +28,10 @@ void add_level_flags(CLI::App& verb, LevelFlags& flags) {
   verb.add_option("--level-values", flags.level_values, "v1,v2,... in the volume's values")
       ->excludes(levels)
       ->group(group);
-  verb.add_option("--placement", flags.placement, "Where N levels are put")
-      ->check(CLI::IsMember({"uniform"}))
+  verb.add_option("--placement", flags.placement,
+                  "Where N levels are put: for the least error of maximum projections over "
+                  "directions (optimal), evenly, or optimal where that gains more than 1 dB (auto)")
+      ->check(CLI::IsMember({"auto", "optimal", "uniform"}))
       ->capture_default_str()
       ->group(group);
 }

@@ -16,7 +16,7 @@ namespace nacre {
 struct LevelFlags {
   std::string levels;        ///< a count, or emissions "t1,t2,..."; empty: the default
   std::string level_values;  ///< "v1,v2,..." in the volume's values
-  std::string placement = "uniform";
+  std::string placement = "auto";
 };
 
 /// Adds --levels, --level-values and --placement.

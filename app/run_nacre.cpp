@@ -77,6 +77,7 @@ int run_nacre(int argc, char** argv) {
   add_info_verb(app, status);
   add_report_verb(app, status);
   add_tables_verb(app, status);
+  add_verify_verb(app, status);
   if (argc == 1) {
     fmt::print("{}", app.help());
     return kWrongUse;

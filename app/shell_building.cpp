@@ -2,51 +2,92 @@
 
 #include <fmt/core.h>
 
+#include <cmath>
+#include <glm/geometric.hpp>
 #include <vector>
 
+#include "app/build_words.h"
+#include "app/level_placement.h"
+#include "io/draco_decode.h"
 #include "shells/build.h"
+#include "shells/crossings.h"
 
 namespace nacre {
 namespace {
 
-BuildOptions options_of(const ShellFlags& flags, const EmissionMap& emission, Reporter& reporter) {
+// Less is one sample that reaches its level and less than a quarter of the way to its neighbours.
+constexpr double kSpeckVoxels = 1.0 / 64.0;
+
+double voxel_mm3(const Volume& volume) {
+  const glm::dmat4& m = volume.world_from_voxel;
+  return std::abs(glm::dot(glm::dvec3(m[0]), glm::cross(glm::dvec3(m[1]), glm::dvec3(m[2]))));
+}
+
+BuildOptions options_of(const ShellFlags& flags, const EmissionVolume& input, Reporter& reporter,
+                        BuildFigures& figures) {
+  Stopwatch placing;
+  PlacedLevels placed = place_levels(flags, input, reporter, figures.placement);
+  figures.emission = placing.lap();
   BuildOptions options;
-  options.levels = levels_of(flags, emission);
-  options.placement = are_placed(flags) ? "uniform" : "explicit";
+  options.levels = std::move(placed.levels);
+  options.placement = placed.placement;
   options.emission_tolerance = flags.tolerance;
   options.tolerance_mm = flags.tolerance_mm;
   options.quantization_bits = flags.quantization;
+  if (!flags.keep_specks) {
+    options.min_component_mm3 =
+        flags.min_component.value_or(kSpeckVoxels * voxel_mm3(input.volume));
+  }
+  options.prune_inner = flags.purpose == "max";
   options.progress = reporter.progress();
   return options;
 }
 
-void tell(const BuildReport& report, Reporter& reporter, BuildFigures& figures) {
+void tell(const BuiltShells& built, Reporter& reporter, BuildFigures& figures) {
+  const BuildReport& report = built.report;
   if (report.is_grid_coarse) {
     reporter.warn(
         fmt::format("the quantisation step is {:.3g} of the smallest spacing, more than "
                     "1/64: more bits would be needed",
                     report.step_spacings));
   }
+  figures.left_out = tell_pruning(built.set.pruned, reporter);
   figures.extract = report.extract_seconds;
   figures.simplify = report.simplify_seconds + report.snap_seconds;
   figures.encode = report.sink_seconds;
   figures.extracted_triangles = report.extracted_triangles;
 }
 
+/// Counts where neighbours cross as they will decode: two at a time are in memory.
+void count_crossings_of(const CompressedSet& built, Reporter& reporter, BuildFigures& figures) {
+  Stopwatch counting;
+  CrossingCounter counter(built.set);
+  ProgressMeter progress(reporter.progress(), "nesting", built.shells.size());
+  for (std::size_t k = 0; k < built.shells.size(); ++k) {
+    const CompressedShell& shell = built.shells[k];
+    if (!shell.bytes.empty()) {
+      counter.add(k, decode_draco(shell.bytes, {shell.triangles, shell.vertices}));
+    }
+    progress.advance();
+  }
+  figures.crossings = counting.lap();
+  figures.nesting = tell_nesting(counter.result(), reporter);
+}
+
 }  // namespace
 
 ShellSet build_shell_set(const ShellFlags& flags, EmissionVolume input, Reporter& reporter,
                          BuildFigures& figures) {
-  const BuildOptions options = options_of(flags, input.emission, reporter);
+  const BuildOptions options = options_of(flags, input, reporter, figures);
   BuiltShells built = build_shells(std::move(input.volume), input.emission, options);
-  tell(built.report, reporter, figures);
+  tell(built, reporter, figures);
   return std::move(built.set);
 }
 
 CompressedSet build_compressed_set(const ShellFlags& flags, EmissionVolume input,
                                    const std::filesystem::path& scratch_folder, Reporter& reporter,
                                    BuildFigures& figures) {
-  BuildOptions options = options_of(flags, input.emission, reporter);
+  BuildOptions options = options_of(flags, input, reporter, figures);
   options.scratch_folder = scratch_folder;
   release_free_memory();
   CompressedSet result;
@@ -57,8 +98,9 @@ CompressedSet build_compressed_set(const ShellFlags& flags, EmissionVolume input
                                          compress_shell(std::move(surface), *set.grid);
                                      release_free_memory();
                                    });
-  tell(built.report, reporter, figures);
+  tell(built, reporter, figures);
   result.set = std::move(built.set);
+  count_crossings_of(result, reporter, figures);
   return result;
 }
 

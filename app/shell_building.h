@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "app/command.h"
@@ -13,21 +15,30 @@ namespace nacre {
 
 /// Which shells to make of a volume, as flags say it.
 struct ShellFlags : LevelFlags {
-  double tolerance = 0.0;     ///< emission; 0: none
-  double tolerance_mm = 0.0;  ///< mm; 0: none
-  int quantization = 0;       ///< bits; 0: chosen
+  double tolerance = 0.0;               ///< emission; 0: none
+  double tolerance_mm = 0.0;            ///< mm; 0: none
+  int quantization = 0;                 ///< bits; 0: chosen
+  std::optional<double> min_component;  ///< mm^3; none: chosen
+  bool keep_specks = false;
+  std::string purpose = "all";  ///< all or max: which pictures the set must serve
 };
 
-/// Adds the flags of levels, --tolerance, --tolerance-mm and --quantization.
+/// Adds the flags of levels, --tolerance, --tolerance-mm, --quantization, --min-component,
+/// --keep-specks and --purpose.
 void add_shell_flags(CLI::App& verb, ShellFlags& flags);
 
 /// What building took, in seconds, and how many triangles there were before simplification.
 struct BuildFigures {
-  double emission = 0.0;
+  double emission = 0.0;  ///< placing levels
   double extract = 0.0;
   double simplify = 0.0;
   double encode = 0.0;
+  double crossings = 0.0;
+  double certificate = 0.0;
   std::size_t extracted_triangles = 0;
+  nlohmann::ordered_json left_out = nlohmann::ordered_json::array();  ///< {"what", "why", ...} each
+  nlohmann::ordered_json nesting;
+  nlohmann::ordered_json placement;
 };
 
 /// Shells of a volume, in memory; the volume is gone afterwards.

@@ -39,6 +39,20 @@ void add_shell_flags(CLI::App& verb, ShellFlags& flags) {
                   "smallest spacing)")
       ->check(CLI::Range(1, 30))
       ->group(group);
+  auto* least = verb.add_option("--min-component", flags.min_component,
+                                "MM3: closed components of less volume are left out (default: "
+                                "1/64 of a voxel)")
+                    ->check(finite_from_zero(1e30, "a volume in mm3"))
+                    ->group(group);
+  verb.add_flag("--keep-specks", flags.keep_specks, "Leave out no component for its size")
+      ->excludes(least)
+      ->group(group);
+  verb.add_option("--purpose", flags.purpose,
+                  "max: cavities are left out, which no maximum projection shows that starts "
+                  "outside the volume and has no slab; all: they stay, for sums and slabs, too")
+      ->check(CLI::IsMember({"all", "max"}))
+      ->capture_default_str()
+      ->group(group);
 }
 
 }  // namespace nacre

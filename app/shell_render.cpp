@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "app/flag_values.h"
+#include "app/pruned_shells.h"
 #include "app/renderer_choice.h"
 #include "app/thread_limit.h"
 #include "app/turntable_output.h"
@@ -169,7 +170,8 @@ SceneFacts facts_of(const ShellFileInfo& info, std::span<const Tool> tools) {
     const ShellFileLevel& level = info.levels[i];
     facts.shells.push_back({info.set.shells[i].representative,
                             level.triangles,
-                            {glm::dvec3(level.lo_mm), glm::dvec3(level.hi_mm)}});
+                            {glm::dvec3(level.lo_mm), glm::dvec3(level.hi_mm)},
+                            info.set.shells[i].sum_representative});
   }
   for (const Tool& tool : tools) facts.tools.push_back(tool_facts(tool, facts.center_mm));
   return facts;
@@ -241,6 +243,7 @@ void run_shell_file(const ExactFlags& flags, const DrawFlags& draw) {
   const std::vector<Tool> tools = read_tools(flags.scene);
   const ShellFileInfo info = read_shell_file_info(flags.volume.path);
   const Views views = views_of(flags, draw, info.set.volume, info.levels.size());
+  check_pruning(info.set, views.options, views.cameras, reporter);
   timing.load = watch.lap();
   const SceneFacts facts = facts_of(info, tools);
   const auto [renderer, plans] =

@@ -29,6 +29,14 @@ std::vector<EmissionKnot> parse_map(const std::string& text) {
   return knots;
 }
 
+VolumeReadOptions read_options(const VolumeFlags& flags) {
+  VolumeReadOptions options;
+  if (!flags.raw.empty()) options.raw = parse_raw_header(flags.raw);
+  if (!flags.crop.empty()) options.crop = parse_voxel_crop(flags.crop);
+  options.dicom_series = flags.series;
+  return options;
+}
+
 void tell(const VolumeReadReport& report, const std::string& path, Reporter& reporter) {
   for (const std::string& warning : report.warnings) {
     reporter.warn(fmt::format("{}: {}", path, warning));
@@ -69,11 +77,7 @@ void add_emission_flags(CLI::App& verb, VolumeFlags& flags) {
 }
 
 VolumeFile read_volume_of(const VolumeFlags& flags, Reporter& reporter) {
-  VolumeReadOptions options;
-  if (!flags.raw.empty()) options.raw = parse_raw_header(flags.raw);
-  if (!flags.crop.empty()) options.crop = parse_voxel_crop(flags.crop);
-  options.dicom_series = flags.series;
-  VolumeFile file = read_volume(flags.path, options);
+  VolumeFile file = read_volume(flags.path, read_options(flags));
   tell(file.report, flags.path, reporter);
   return file;
 }
@@ -95,6 +99,12 @@ EmissionVolume read_emission_volume(const VolumeFlags& flags, Reporter& reporter
                              chosen.hi));
   }
   return {std::move(volume), EmissionMap::window(window[0], window[1])};
+}
+
+EmissionVolume read_emission_volume_again(const VolumeFlags& flags, const EmissionMap& emission) {
+  Volume volume = read_volume(flags.path, read_options(flags)).volume;
+  if (!flags.map.empty()) return map_volume(std::move(volume), parse_map(flags.map));
+  return {std::move(volume), emission};
 }
 
 }  // namespace nacre

@@ -31,4 +31,8 @@ VolumeFile read_volume_of(const VolumeFlags& flags, Reporter& reporter);
 /// said.
 EmissionVolume read_emission_volume(const VolumeFlags& flags, Reporter& reporter);
 
+/// The same once more, without a word, for a step after one that freed the volume.
+/// @param emission  what was found the first time
+EmissionVolume read_emission_volume_again(const VolumeFlags& flags, const EmissionMap& emission);
+
 }  // namespace nacre

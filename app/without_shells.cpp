@@ -4,7 +4,9 @@
 #include "app/command.h"
 #include "app/error_explaining.h"
 #include "app/report_verbs.h"
+#include "app/set_certificate.h"
 #include "app/shell_building.h"
+#include "app/verify_command.h"
 #include "core/error.h"
 
 namespace nacre {
@@ -48,5 +50,12 @@ void add_report_verb(CLI::App& app, int& /*status*/) {
 void add_tables_verb(CLI::App& app, int& /*status*/) {
   add_missing_verb(app, "tables", "A paper's tables remade (not in this build)");
 }
+nlohmann::ordered_json certify_set(const VolumeFlags& /*flags*/, const glm::ivec2& /*size*/,
+                                   const CompressedSet& /*built*/, Reporter& /*reporter*/,
+                                   BuildFigures& /*figures*/) {
+  refuse();
+}
+
+int run_verify(const VerifyFlags& /*flags*/) { refuse(); }
 
 }  // namespace nacre

@@ -22,6 +22,30 @@ struct Shell {
   double value = 0.0;           ///< contour value v_k, in the volume's values
   double representative = 0.0;  ///< r_k, the emission shown for the layer above this shell
   TriangleMesh surface;         ///< LPS mm relative to `ShellSet::center_mm`; empty if unreached
+  /// The emission that sums add for the layer; none where it is the representative.
+  std::optional<double> sum_representative = std::nullopt;
+};
+
+/// The emission shown for the layer above a shell where emission is summed along rays.
+inline double sum_representative(const Shell& shell) noexcept {
+  return shell.sum_representative.value_or(shell.representative);
+}
+
+/// Closed components of surfaces, counted.
+struct ComponentCount {
+  std::size_t components = 0;
+  std::size_t triangles = 0;  ///< before simplification
+  double volume_mm3 = 0.0;    ///< enclosed, without sign
+};
+
+/// What was left out of a set's surfaces on purpose, see `shells/prune.h`.
+struct Pruning {
+  double min_component_mm3 = 0.0;  ///< components of less volume are specks; 0: none were pruned
+  bool inner_pruned = false;       ///< whether components inside their own shell were pruned
+  ComponentCount specks;
+  ComponentCount inner;
+  /// No pixel of a maximum projection of the shells lost more by the specks.
+  double largest_emission = 0.0;
 };
 
 /// The lattice all positions of a set lie on: origin + step * (i, j, k), 0 <= i, j, k < 2^bits.
@@ -52,6 +76,7 @@ struct ShellSet {
   std::string placement = "uniform";     ///< "uniform", "optimal" or "explicit"
   double tolerance = 0.0;                ///< allowed emission error of the surfaces; 0 = none made
   std::optional<QuantizationGrid> grid;  ///< none before snapping
+  Pruning pruned;
 };
 
 }  // namespace nacre

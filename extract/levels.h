@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -10,6 +11,8 @@ namespace nacre {
 struct Level {
   double emission = 0.0;        ///< t, in (0, 1]
   double representative = 0.0;  ///< r
+  /// What sums show; none where it is the representative.
+  std::optional<double> sum_representative = std::nullopt;
 };
 
 /// N uniform levels, the midpoint rule: t_k = (k - 1/2) / N, r_k = k / N, k = 1 to N. Each

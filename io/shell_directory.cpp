@@ -7,6 +7,7 @@
 
 #include "core/checksum.h"
 #include "core/error.h"
+#include "io/json_depth.h"
 #include "io/shell_file_format.h"
 #include "io/shell_set_rules.h"
 
@@ -69,6 +70,10 @@ class Value {
     if (!fits) expect("a count");
     return value_->get<std::size_t>();
   }
+  bool truth() const {
+    if (!value_->is_boolean()) expect("true or false");
+    return value_->get<bool>();
+  }
   std::string text() const {
     if (!value_->is_string()) expect("a string");
     return value_->get<std::string>();
@@ -96,28 +101,8 @@ class Value {
   std::string_view file_;
 };
 
-/// Nesting deep enough to exhaust a stack is refused before anything recurses over it.
-bool is_too_deep(std::string_view text) {
-  int depth = 0;
-  bool in_string = false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (in_string) {
-      if (c == '\\') ++i;
-      if (c == '"') in_string = false;
-    } else if (c == '"') {
-      in_string = true;
-    } else if (c == '[' || c == '{') {
-      if (++depth > shell_file::kMaxJsonDepth) return true;
-    } else if (c == ']' || c == '}') {
-      --depth;
-    }
-  }
-  return false;
-}
-
 json parsed(std::string_view text, std::string_view file) {
-  if (is_too_deep(text)) {
+  if (is_json_too_deep(text)) {
     throw Error(ErrorCode::BadFile, fmt::format("{}: found JSON nested deeper than {}, expected a "
                                                 "shell set",
                                                 file, shell_file::kMaxJsonDepth));
@@ -192,6 +177,16 @@ std::vector<EmissionKnot> knots_of(const Value& emission) {
   return knots;
 }
 
+ComponentCount components_of(const Value& count) {
+  return {count["components"].count(), count["triangles"].count(), count["volume_mm3"].number()};
+}
+
+Pruning pruning_of(const Value& pruned) {
+  return {pruned["min_component_mm3"].number(), pruned["inner_pruned"].truth(),
+          components_of(pruned["specks"]), components_of(pruned["inner"]),
+          pruned["largest_emission"].number()};
+}
+
 /// From a level's mesh to its bytes, by way of glTF.
 ShellPayload payload_of(const Value& gltf, const Value& level, std::size_t binary_size) {
   ShellPayload payload;
@@ -226,6 +221,9 @@ void add_level(ShellDirectory& directory, const Value& gltf, const Value& level,
   shell.emission = level["emission"].number();
   shell.value = level["value"].number();
   shell.representative = level["representative"].number();
+  if (level.has("sum_representative")) {
+    shell.sum_representative = level["sum_representative"].number();
+  }
   directory.info.set.shells.push_back(std::move(shell));
   if (level["mesh"].is_null()) {
     directory.info.levels.emplace_back();
@@ -260,6 +258,8 @@ void read_description(ShellFileInfo& info, const Value& extras, std::string_view
   set.tolerance = extras["tolerance"].number();
   set.center_mm = extras["center_mm"].vector();
   set.grid = grid_of(extras["grid"]);
+  // Files of earlier builds pruned nothing and say nothing of it.
+  if (extras.has("pruned")) set.pruned = pruning_of(extras["pruned"]);
   if (extras.has("certificate")) info.certificate_json = extras["certificate"].raw().dump();
 }
 

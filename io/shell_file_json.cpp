@@ -58,9 +58,24 @@ Json level_json(const Shell& shell, const std::optional<StoredShell>& stored,
                 {"representative", shell.representative},
                 {"triangles", stored ? stored->counts.triangles : 0},
                 {"vertices", stored ? stored->counts.vertices : 0}};
+  if (shell.sum_representative) level["sum_representative"] = *shell.sum_representative;
   level["mesh"] = stored ? Json(mesh_index) : Json(nullptr);
   if (stored) level["checksum"] = checksum_text(stored->checksum);
   return level;
+}
+
+Json components_json(const ComponentCount& count) {
+  return {{"components", count.components},
+          {"triangles", count.triangles},
+          {"volume_mm3", count.volume_mm3}};
+}
+
+Json pruned_json(const Pruning& pruned) {
+  return {{"min_component_mm3", pruned.min_component_mm3},
+          {"inner_pruned", pruned.inner_pruned},
+          {"specks", components_json(pruned.specks)},
+          {"inner", components_json(pruned.inner)},
+          {"largest_emission", pruned.largest_emission}};
 }
 
 Json parsed_certificate(const std::string& text) {
@@ -81,6 +96,7 @@ Json extras_json(const ShellSet& set, std::span<const std::optional<StoredShell>
                 {"tolerance", set.tolerance},
                 {"center_mm", json_of(set.center_mm)},
                 {"grid", grid_json(*set.grid)},
+                {"pruned", pruned_json(set.pruned)},
                 {"levels", Json::array()}};
   for (const EmissionKnot& knot : set.emission) {
     nacre["emission"].push_back({knot.value, knot.emission});

@@ -5,9 +5,9 @@ find_package(nlohmann_json REQUIRED)
 find_package(TBB REQUIRED)
 
 nacre_library(io_shell_reader
-  SOURCES draco_decode.cpp draco_guard.cpp glb_container.cpp shell_directory.cpp
-    shell_reader.cpp shell_set_rules.cpp
-  HEADERS shell_reader.h
+  SOURCES draco_decode.cpp draco_guard.cpp glb_container.cpp gltf_meshes.cpp json_depth.cpp
+    shell_directory.cpp shell_reader.cpp shell_set_rules.cpp
+  HEADERS gltf_meshes.h shell_reader.h
   LINK nacre::core
   LINK_PRIVATE nacre::io_files draco::draco fmt::fmt
     $<BUILD_INTERFACE:nlohmann_json::nlohmann_json> TBB::tbb)

@@ -50,8 +50,20 @@ Objection object_to_levels(const std::vector<Shell>& shells) {
     if (!std::isfinite(shell.value)) {
       return fmt::format("found level {} at value {}, expected a finite one", k, shell.value);
     }
-    if (!(shell.representative >= 0.0 && shell.representative <= 1.0)) {
-      return fmt::format("found level {} shown as {}, expected 0 to 1", k, shell.representative);
+    for (const double shown : {shell.representative, sum_representative(shell)}) {
+      if (!(shown >= 0.0 && shown <= 1.0)) {
+        return fmt::format("found level {} shown as {}, expected 0 to 1", k, shown);
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+Objection object_to_pruning(const Pruning& pruned) {
+  for (const double number : {pruned.min_component_mm3, pruned.largest_emission,
+                              pruned.specks.volume_mm3, pruned.inner.volume_mm3}) {
+    if (!(number >= 0.0 && std::isfinite(number))) {
+      return fmt::format("found {} for what was pruned, expected 0 or more", number);
     }
   }
   return std::nullopt;
@@ -74,6 +86,7 @@ std::optional<std::string> shell_set_objection(const ShellSet& set) {
   if (auto objection = object_to_volume(set.volume)) return objection;
   if (auto objection = object_to_emission(set.emission)) return objection;
   if (auto objection = object_to_levels(set.shells)) return objection;
+  if (auto objection = object_to_pruning(set.pruned)) return objection;
   if (set.placement != "uniform" && set.placement != "optimal" && set.placement != "explicit") {
     return fmt::format("found placement '{:.40}', expected uniform, optimal or explicit",
                        set.placement);

@@ -25,7 +25,7 @@ constexpr std::int64_t kPixelsAtOnce = 1 << 19;
 struct ShownShell {
   const TriangleMesh* surface = nullptr;
   double representative = 0.0;
-  double step = 0.0;  ///< over the previous shown shell's
+  double step = 0.0;  ///< in sums, over the previous shown shell
 };
 
 std::vector<ShownShell> shown_shells(const ShellSet& set, std::span<const std::uint32_t> hidden) {
@@ -39,8 +39,9 @@ std::vector<ShownShell> shown_shells(const ShellSet& set, std::span<const std::u
   for (std::uint32_t k = 0; k < set.shells.size(); ++k) {
     if (std::ranges::find(hidden, k) != hidden.end()) continue;
     const Shell& shell = set.shells[k];
-    shown.push_back({&shell.surface, shell.representative, shell.representative - previous});
-    previous = shell.representative;
+    const double summed = sum_representative(shell);
+    shown.push_back({&shell.surface, shell.representative, summed - previous});
+    previous = summed;
   }
   return shown;
 }

@@ -40,12 +40,14 @@ std::vector<ShownShell> all_shells(const Planning& planning) {
   return shells;
 }
 
-/// A shell adds to the one around it, whether or not that one is in view.
-void find_steps(std::vector<ShownShell>& shells) {
+/// In sums a shell adds to the one around it, whether or not that one is in view.
+void find_steps(const SceneFacts& scene, std::vector<ShownShell>& shells) {
   double around = 0.0;
   for (ShownShell& shell : shells) {
-    shell.step = shell.representative - around;
-    if (shell.triangles > 0) around = shell.representative;
+    const double summed =
+        scene.shells[shell.index].sum_representative.value_or(shell.representative);
+    shell.step = summed - around;
+    if (shell.triangles > 0) around = summed;
   }
 }
 
@@ -160,7 +162,7 @@ void find_shells(Planning& planning) {
                [&](const ShownShell& shell) {
                  return std::find(hidden.begin(), hidden.end(), shell.index) != hidden.end();
                });
-  find_steps(planning.shells);
+  find_steps(planning.scene, planning.shells);
   if (planning.options.rules.leave_out_empty) {
     leave_out_if(planning, "empty: nothing reaches the level",
                  [](const ShownShell& shell) { return shell.triangles == 0; });

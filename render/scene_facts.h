@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -21,6 +22,8 @@ struct ShellFacts {
   double representative = 0.0;  ///< r_k, the emission shown for the layer above this shell
   std::size_t triangles = 0;    ///< 0 for a level that the volume does not reach
   Box bounds;                   ///< of the positions, relative to `SceneFacts::center_mm`
+  /// The emission that sums add for the layer; none where it is the representative.
+  std::optional<double> sum_representative = std::nullopt;
 };
 
 /// What planning a picture needs to know of a tool.

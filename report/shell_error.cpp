@@ -32,11 +32,13 @@ void snap_all(ShellSet& set) {
   });
 }
 
-std::vector<ShownLevel> shown_levels(const ShellSet& set, std::span<const std::uint32_t> hidden) {
+std::vector<ShownLevel> shown_levels(const ShellSet& set, const ShellPictureOptions& options) {
+  const bool sum = options.mode == PictureMode::Sum;
   std::vector<ShownLevel> levels;
   for (std::uint32_t k = 0; k < set.shells.size(); ++k) {
-    if (std::ranges::find(hidden, k) != hidden.end()) continue;
-    levels.push_back({set.shells[k].value, set.shells[k].representative});
+    if (std::ranges::find(options.hidden, k) != options.hidden.end()) continue;
+    const Shell& shell = set.shells[k];
+    levels.push_back({shell.value, sum ? sum_representative(shell) : shell.representative});
   }
   return levels;
 }
@@ -81,7 +83,7 @@ ShellErrorChain shell_error_chain(Volume volume, ShellSet set, const Camera& cam
   ShellErrorChain chain;
   const ExactWalk walk(volume, EmissionMap::piecewise_linear(set.emission));
   const ExactPictureOptions exact{options.mode, options.cue, options.slab,
-                                  shown_levels(set, options.hidden), options.tools};
+                                  shown_levels(set, options), options.tools};
   chain.truth = exact_picture(walk, camera, exact, progress).volume;
   if (options.mode == PictureMode::Max || options.mode == PictureMode::Sum) {
     chain.stages.push_back({"levels", ideal_picture(walk, camera, exact, progress).volume});

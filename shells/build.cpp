@@ -16,6 +16,7 @@
 #include "core/volume_geometry.h"
 #include "extract/marching_cubes.h"
 #include "shells/level_field.h"
+#include "shells/prune.h"
 #include "shells/quantization.h"
 #include "shells/refine.h"
 #include "shells/simplify.h"
@@ -75,6 +76,7 @@ ShellSet describe(const Volume& volume, const EmissionMap& emission, const Build
     shell.emission = level.emission;
     shell.value = emission.value_at(level.emission);
     shell.representative = level.representative;
+    shell.sum_representative = level.sum_representative;
     set.shells.push_back(std::move(shell));
   }
   return set;
@@ -143,15 +145,15 @@ bool is_simplifying(const BuildOptions& options) {
 }
 
 void simplify_shells(const Volume& volume, const EmissionMap& emission, const BuildOptions& options,
-                     std::span<const std::size_t> triangles, ExtractedSurfaces& surfaces,
-                     ShellSet& set) {
+                     std::span<const std::size_t> triangles,
+                     const std::function<TriangleMesh(std::size_t)>& source, ShellSet& set) {
   const auto extracted_triangles = std::reduce(triangles.begin(), triangles.end());
   const TrilinearField field(volume);
   const glm::dvec3 spacing = spacing_mm(volume.world_from_voxel);
   const std::size_t memory = working_memory(volume);
   for_each_shell(triangles, memory, options.progress, "simplify", [&](std::size_t k) {
     Shell& shell = set.shells[k];
-    shell.surface = surfaces.take(k);
+    shell.surface = source(k);
     SimplifyOptions bounds;
     bounds.tolerance_mm = options.tolerance_mm;
     bounds.samples_from_mm = field.voxel_from_mm();
@@ -233,11 +235,13 @@ BuiltShells build(const Volume& volume, const EmissionMap& emission, const Build
   for (std::size_t k = 0; k < triangles.size(); ++k) triangles[k] = surfaces.triangle_count(k);
   report.extracted_triangles = std::reduce(triangles.begin(), triangles.end());
   const std::size_t memory = working_memory(volume);
-  SnapEnds ends{[&](std::size_t k) { return surfaces.take(k); }, sink};
+  Pruner pruner(surfaces.size(), {.min_component_mm3 = options.min_component_mm3,
+                                  .prune_inner = options.prune_inner});
+  SnapEnds ends{[&](std::size_t k) { return pruner.prune(k, surfaces.take(k)); }, sink};
 
   if (is_simplifying(options)) {
     const Stopwatch simplifying;
-    simplify_shells(volume, emission, options, triangles, surfaces, built.set);
+    simplify_shells(volume, emission, options, triangles, ends.source, built.set);
     report.simplify_seconds = simplifying.seconds();
     for (std::size_t k = 0; k < triangles.size(); ++k) {
       triangles[k] = built.set.shells[k].surface.triangles.size();
@@ -246,6 +250,7 @@ BuiltShells build(const Volume& volume, const EmissionMap& emission, const Build
   }
   volume_done();
   snap_shells(triangles, memory, ends, options, built.set, report);
+  built.set.pruned = pruner.result(built.set);
   return built;
 }
 

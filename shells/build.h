@@ -23,6 +23,8 @@ struct BuildOptions {
   double tolerance_mm = 0.0;          ///< likewise, of their distance
   std::size_t target_triangles = 0;   ///< for the set, shared out evenly; 0: none
   int quantization_bits = 0;          ///< 0 chooses, see `choose_grid`
+  double min_component_mm3 = 0.0;     ///< specks are left out, see `PruneOptions`
+  bool prune_inner = false;           ///< components inside their own shell, see `PruneOptions`
   /// Folder of a nameless file where large surfaces wait for their turn; none: memory holds them.
   std::optional<std::filesystem::path> scratch_folder = {};
   ProgressCallback progress = {};  ///< stages "extract", "simplify", "snap"

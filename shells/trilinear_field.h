@@ -64,6 +64,8 @@ class TrilinearField {
 
   const VoxelBox& box() const noexcept { return box_; }
 
+  const Volume& volume() const noexcept { return volume_; }
+
  private:
   glm::dvec3 along_border(const glm::dvec3& p_voxel, glm::dvec3 gradient) const noexcept;
   template <class T>

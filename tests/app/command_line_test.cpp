@@ -2,11 +2,18 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "core/quantization_grid.h"
+#include "core/shell_set.h"
 #include "io/picture_file.h"
 #include "io/png_picture.h"
+#include "io/shell_reader.h"
+#include "io/shell_writer.h"
 #include "tests/support/run_command.h"
 #include "tests/support/scratch_folder.h"
 
@@ -45,7 +52,7 @@ class Command : public ::testing::Test {
 TEST_F(Command, SaysItsVersionAndExplainsEveryVerb) {
   EXPECT_EQ(nacre("--version").output, "nacre " NACRE_VERSION "\n");
   EXPECT_EQ(nacre("-h").status, 0);
-  for (const char* verb : {"phantom", "reference", "render", "compare", "info"}) {
+  for (const char* verb : {"phantom", "reference", "render", "compare", "info", "verify"}) {
     const CommandResult help = nacre(std::string(verb) + " -h");
     EXPECT_EQ(help.status, 0) << verb;
     EXPECT_NE(help.output.find("Example: nacre "), std::string::npos) << verb;
@@ -234,7 +241,8 @@ class ShellCommand : public Command {
   void SetUp() override {
     if (!NACRE_HAS_SHELLS) GTEST_SKIP() << "built without the shell tools";
     Command::SetUp();
-    ASSERT_EQ(nacre("build ball.nii --window 0,28 --levels 7 -o ball.glb").status, 0);
+    ASSERT_EQ(
+        nacre("build ball.nii --window 0,28 --levels 7 --certificate none -o ball.glb").status, 0);
   }
 
   void require_backend() const {
@@ -255,8 +263,8 @@ TEST_F(ShellCommand, BuildRefusesWhatIsNoTolerance) {
 }
 
 TEST_F(ShellCommand, BuildTellsItsFigures) {
-  const CommandResult result =
-      nacre("build ball.nii --window 0,28 --levels 0.25,0.5,0.75 -o b.glb --json -");
+  const CommandResult result = nacre(
+      "build ball.nii --window 0,28 --levels 0.25,0.5,0.75 --certificate none -o b.glb --json -");
   ASSERT_EQ(result.status, 0) << result.errors;
   const json figures = json::parse(result.output);
   EXPECT_EQ(figures["volume"]["dims"], json({20, 18, 16}));
@@ -275,10 +283,9 @@ TEST_F(ShellCommand, BuildTellsItsFigures) {
 
 TEST_F(ShellCommand, BuildGivesTheSameBytesForAnyNumberOfThreads) {
   for (const char* extra : {"", " --tolerance 0.02"}) {
-    ASSERT_EQ(nacre(std::string("build ball.nii --levels 5 --threads 1 -o one.glb") + extra).status,
-              0);
-    ASSERT_EQ(
-        nacre(std::string("build ball.nii --levels 5 --threads 4 -o four.glb") + extra).status, 0);
+    const std::string build = std::string("build ball.nii --levels 5 --certificate 20x20") + extra;
+    ASSERT_EQ(nacre(build + " --threads 1 -o one.glb").status, 0);
+    ASSERT_EQ(nacre(build + " --threads 4 -o four.glb").status, 0);
     EXPECT_EQ(testing::read_bytes(folder_.path() / "one.glb"),
               testing::read_bytes(folder_.path() / "four.glb"));
   }
@@ -398,6 +405,159 @@ TEST_F(ShellCommand, DamagedSetsAreStatusThree) {
     }
   }
   expect_refusal("render flipped.glb -o a.png", 3, "damaged");
+}
+
+TEST_F(ShellCommand, VerifyAgreesWithWhatBuildMade) {
+  const CommandResult result = nacre("verify ball.glb --volume ball.nii --json -");
+  ASSERT_EQ(result.status, 0) << result.errors;
+  const json figures = json::parse(result.output);
+  EXPECT_TRUE(figures["kept"].get<bool>());
+  EXPECT_EQ(figures["kind"], "shell set");
+  ASSERT_EQ(figures["shells"].size(), 7u);
+  for (const json& shell : figures["shells"]) {
+    EXPECT_EQ(shell["open_edges"], 0);
+    EXPECT_EQ(shell["off_grid"], 0);
+    EXPECT_EQ(shell["degenerate"], 0);
+    EXPECT_LT(shell["volume"]["max_error"].get<double>(), 0.2);
+  }
+  EXPECT_NE(nacre("verify ball.glb").output.find("all promises kept"), std::string::npos);
+}
+
+TEST_F(ShellCommand, VerifyFindsBrokenPromises) {
+  ASSERT_EQ(nacre("phantom spheres --size 20,18,16 --noise 5 -o other.nii").status, 0);
+  const CommandResult other = nacre("verify ball.glb --volume other.nii");
+  EXPECT_EQ(other.status, 1);
+  EXPECT_NE(other.errors.find("checksum"), std::string::npos) << other.errors;
+  std::string bytes = testing::read_bytes(folder_.path() / "ball.glb");
+  bytes[bytes.size() - 20] ^= 1;
+  folder_.write("flipped.glb", bytes);
+  const CommandResult flipped = nacre("verify flipped.glb --json -");
+  EXPECT_EQ(flipped.status, 1);
+  EXPECT_NE(flipped.errors.find("damaged"), std::string::npos) << flipped.errors;
+  EXPECT_FALSE(json::parse(flipped.output)["kept"].get<bool>());
+  folder_.write("text.glb", "glTF is what this is not");
+  expect_refusal("verify text.glb", 3, "text.glb");
+  expect_refusal("verify none.glb", 3, "none.glb");
+  expect_refusal("verify ball.glb --volume none.nii", 3, "none.nii");
+}
+
+// By other verbs, from the file: the same views, drawn and compared.
+TEST_F(ShellCommand, ACertificateIsWhatReferenceAndCompareMeasure) {
+  require_backend();
+  ASSERT_EQ(nacre("build ball.nii --window 0,28 --levels 7 --certificate 96x96 -o c.glb").status,
+            0);
+  const json info = json::parse(nacre("info c.glb --json -").output);
+  const json& certificate = info["certificate"];
+  EXPECT_EQ(certificate["size"], json({96, 96}));
+  ASSERT_EQ(certificate["views"].size(), 7u);
+  for (const std::size_t i : {std::size_t{2}, std::size_t{5}}) {
+    const json& view = certificate["views"][i];
+    for (const std::string mode : {"max", "sum"}) {
+      const std::string picture = " --mode " + mode + " --size 96x96 --view " +
+                                  view["view"].get<std::string>() + " --azimuth " +
+                                  view["azimuth_deg"].dump() + " --elevation " +
+                                  view["elevation_deg"].dump();
+      ASSERT_EQ(nacre("reference ball.nii --window 0,28 -o exact.tif" + picture).status, 0);
+      ASSERT_EQ(nacre("render c.glb -o shells.tif" + picture).status, 0);
+      const json compared = json::parse(nacre("compare shells.tif exact.tif --json -").output);
+      EXPECT_NEAR(view[mode]["psnr_db"].get<double>(), compared["all"]["psnr_db"].get<double>(),
+                  0.1)
+          << mode << " " << i;
+      EXPECT_NEAR(view[mode]["psnr_lit_db"].get<double>(), compared["lit"]["psnr_db"].get<double>(),
+                  0.1);
+      EXPECT_NEAR(view[mode]["peak"].get<double>(), compared["peak"].get<double>(),
+                  1e-4 * view[mode]["peak"].get<double>());
+    }
+  }
+  EXPECT_NE(nacre("info c.glb").output.find("certified    max: "), std::string::npos);
+}
+
+TEST_F(ShellCommand, ACertificateMayBeLeftOut) {
+  EXPECT_FALSE(json::parse(nacre("info ball.glb --json -").output).contains("certificate"));
+  EXPECT_EQ(nacre("info ball.glb").output.find("certified"), std::string::npos);
+  expect_refusal("build ball.nii --certificate big -o c.glb", 2, "--certificate: found 'big'");
+  expect_refusal("build ball.nii --certificate 0x5 -o c.glb", 2, "from 1 to 32768");
+}
+
+/// What `verify` finds in ball.glb once its surfaces are damaged, written anew by the library.
+class DamagedShells : public ShellCommand {
+ protected:
+  template <class Damage>
+  CommandResult verify(Damage&& damage) const {
+    ShellSet set = read_shell_set(folder_.path() / "ball.glb");
+    damage(set);
+    write_shell_set(folder_.path() / "damaged.glb", set);
+    return nacre("verify damaged.glb --json -");
+  }
+
+  template <class Damage>
+  void expect_broken(Damage&& damage, const std::string& promise) const {
+    const CommandResult result =
+        verify([&](ShellSet& set) { damage(set.shells[2].surface.triangles); });
+    EXPECT_EQ(result.status, 1) << promise;
+    EXPECT_NE(result.errors.find("shell 3: found " + promise), std::string::npos) << result.errors;
+  }
+
+  template <class Damage>
+  void expect_warning(Damage&& damage, const std::string& warning) const {
+    const CommandResult result = verify(damage);
+    EXPECT_EQ(result.status, 0) << result.errors;  // true of real scans: no promise
+    EXPECT_NE(result.errors.find(warning), std::string::npos) << result.errors;
+  }
+};
+
+TEST_F(DamagedShells, BreakTheirPromises) {
+  using Triangles = std::vector<glm::uvec3>;
+  expect_broken([](Triangles& triangles) { triangles.pop_back(); }, "3 open edges");
+  expect_broken([](Triangles& triangles) { std::swap(triangles[0].x, triangles[0].y); },
+                "3 edges of opposite orientation");
+  expect_broken([](Triangles& triangles) { triangles.push_back(triangles[0]); }, "");
+}
+
+TEST_F(DamagedShells, AreWarnedOfWhereNeighboursMeet) {
+  expect_warning([](ShellSet& set) { set.shells[3].surface = set.shells[2].surface; },
+                 "1 pairs of neighbouring shells come nearer than the grid's step");
+  expect_warning(
+      [](ShellSet& set) {
+        const double step = step_mm(*set.grid);
+        for (glm::vec3& p : set.shells[3].surface.positions) {
+          p.x += static_cast<float>(std::round(2.0 / step) * step);
+        }
+      },
+      "neighbouring shells cross: ");
+}
+
+TEST_F(ShellCommand, PruningIsToldAndStored) {
+  const CommandResult result = nacre(
+      "build ball.nii --window 0,28 --levels 7 --min-component 1e9 --certificate none -o none.glb "
+      "--json -");
+  ASSERT_EQ(result.status, 0) << result.errors;
+  const json figures = json::parse(result.output);
+  EXPECT_EQ(figures["triangles"], 0);
+  ASSERT_EQ(figures["left_out"].size(), 1u);
+  EXPECT_NE(figures["left_out"][0]["what"].get<std::string>().find("specks"), std::string::npos);
+  EXPECT_GT(figures["left_out"][0]["largest_emission"].get<double>(), 0.7);
+  const json info = json::parse(nacre("info none.glb --json -").output);
+  EXPECT_GT(info["pruned"]["specks"]["components"].get<int>(), 0);
+  expect_refusal("build ball.nii --keep-specks --min-component 1 -o a.glb", 2, "keep-specks");
+}
+
+TEST_F(ShellCommand, PlacementIsChosenOrAsked) {
+  const auto placement = [&](const std::string& flags) {
+    const CommandResult result =
+        nacre("build ball.nii --window 0,300 --levels 5 --certificate none " + flags +
+              " -o p.glb --json -");
+    EXPECT_EQ(result.status, 0) << result.errors;
+    return json::parse(result.output)["placement"].get<std::string>();
+  };
+  EXPECT_EQ(placement(""), "optimal");  // a window ten times as wide as what is in it
+  EXPECT_EQ(placement("--placement optimal"), "optimal");
+  EXPECT_EQ(placement("--placement uniform"), "uniform");
+}
+
+TEST_F(Command, VerifyNeedsTheShellTools) {
+  if (NACRE_HAS_SHELLS) GTEST_SKIP() << "built with the shell tools";
+  expect_refusal("verify a.glb", 4, "shell tools");
 }
 
 TEST_F(Command, EveryFormatGivesTheSamePicture) {

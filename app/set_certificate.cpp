@@ -1,0 +1,99 @@
+#include "app/set_certificate.h"
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "core/error.h"
+#include "io/draco_decode.h"
+#include "shells/certificate.h"
+#include "shells/voxel_checksum.h"
+
+namespace nacre {
+namespace {
+
+using nlohmann::ordered_json;
+
+// Shells are measured in parts of about so many triangles: some 70 MB with what rays need.
+constexpr std::size_t kTrianglesAtOnce = std::size_t{1} << 20;
+
+/// What is no measure, but noise of rounding, differs between mathematical libraries: five digits
+/// are kept. JSON knows no infinity.
+ordered_json rounded(double value) {
+  if (!std::isfinite(value)) return {};
+  return std::stod(fmt::format("{:.5g}", value));
+}
+
+ordered_json error_json(const CertifiedError& error) {
+  return {{"psnr_db", rounded(error.psnr_db)},     {"psnr_lit_db", rounded(error.psnr_lit_db)},
+          {"rmse", rounded(error.rmse)},           {"rmse_lit", rounded(error.rmse_lit)},
+          {"max_error", rounded(error.max_error)}, {"peak", rounded(error.peak)}};
+}
+
+ordered_json certificate_json(const Certificate& certificate) {
+  ordered_json json;
+  json["size"] = {certificate.size.x, certificate.size.y};
+  json["max"] = error_json(certificate.max);
+  json["sum"] = error_json(certificate.sum);
+  json["surfaces"] = {{"max_error", rounded(certificate.max_emission_error)},
+                      {"rms_error", rounded(certificate.rms_emission_error)},
+                      {"error_bound", rounded(certificate.emission_error_bound)}};
+  json["views"] = ordered_json::array();
+  for (const CertifiedView& view : certificate.views) {
+    json["views"].push_back({{"view", name(view.view.view)},
+                             {"azimuth_deg", view.view.azimuth_deg},
+                             {"elevation_deg", view.view.elevation_deg},
+                             {"max", error_json(view.max)},
+                             {"sum", error_json(view.sum)}});
+  }
+  return json;
+}
+
+void check_unchanged(const VolumeFlags& flags, const Volume& volume, const VolumeFacts& facts) {
+  if (volume.dims == facts.dims && voxel_checksum(volume) == facts.checksum) return;
+  throw Error(ErrorCode::BadFile,
+              fmt::format("{}: found other samples than before, expected a file that does not "
+                          "change while shells are built from it",
+                          flags.path));
+}
+
+/// The set's shells in parts, decoded.
+void add_shells(const CompressedSet& built, const ProgressCallback& callback,
+                Certifier& certifier) {
+  ProgressMeter progress(callback, "certificate", built.shells.size());
+  std::vector<Shell> part;
+  std::size_t triangles = 0;
+  for (std::size_t k = 0; k < built.shells.size(); ++k) {
+    const CompressedShell& stored = built.shells[k];
+    part.push_back(built.set.shells[k]);
+    if (!stored.bytes.empty()) {
+      part.back().surface = decode_draco(stored.bytes, {stored.triangles, stored.vertices});
+    }
+    triangles += stored.triangles;
+    if (triangles >= kTrianglesAtOnce || k + 1 == built.shells.size()) {
+      certifier.add(built.set, std::exchange(part, {}));
+      triangles = 0;
+    }
+    progress.advance();
+  }
+}
+
+}  // namespace
+
+ordered_json certify_set(const VolumeFlags& flags, const glm::ivec2& size,
+                         const CompressedSet& built, Reporter& reporter, BuildFigures& figures) {
+  Stopwatch watch;
+  const EmissionVolume input =
+      read_emission_volume_again(flags, EmissionMap::piecewise_linear(built.set.emission));
+  check_unchanged(flags, input.volume, built.set.volume);
+  Certifier certifier(input.volume, input.emission,
+                      {.size = size, .progress = reporter.progress()});
+  add_shells(built, reporter.progress(), certifier);
+  ordered_json json = certificate_json(certifier.result());
+  figures.certificate = watch.lap();
+  return json;
+}
+
+}  // namespace nacre
