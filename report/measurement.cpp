@@ -95,8 +95,8 @@ class Measurement {
     if (subject.cued) exact.cue = options_.cue;
     if (subject.with_tool) exact.tools = &tools_;
     if (subject.mode == PictureMode::Count || subject.mode == PictureMode::Iso) {
-      for (const auto& [t, representative] : levels_of(subject.levels)) {
-        exact.levels.push_back({emission_.value_at(t), representative});
+      for (const Level& level : levels_of(subject.levels)) {
+        exact.levels.push_back({emission_.value_at(level.emission), level.representative});
       }
     }
     return exact;
