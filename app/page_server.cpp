@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 #include <httplib.h>
 #include <pthread.h>
+#include <sys/socket.h>
 
 #include <charconv>
 #include <csignal>
@@ -17,6 +18,12 @@ namespace nacre {
 namespace {
 
 constexpr const char* kHost = "127.0.0.1";
+
+/// The library's own would let two servers share a port: requests would go to either.
+void set_socket_options(int socket) {
+  const int yes = 1;
+  setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+}
 
 sigset_t ending_signals() {
   sigset_t signals;
@@ -107,6 +114,7 @@ void serve_page(const ServedPage& served, int port,
   httplib::Server server;
   std::mutex one_at_a_time;
   add_answers(server, served, one_at_a_time);
+  server.set_socket_options(set_socket_options);
   const int bound = port == 0                          ? server.bind_to_any_port(kHost)
                     : server.bind_to_port(kHost, port) ? port
                                                        : -1;

@@ -38,7 +38,7 @@ process.on("exit", () => rmSync(folder, { recursive: true, force: true }));
 export const inFolder = (name) => join(folder, name);
 export const address = (path) => pathToFileURL(path).href;
 
-export const nacre = (...flags) => execFileSync(nacreBinary, flags, { cwd: folder, encoding: "utf8" });
+export const nacre = (...flags) => execFileSync(nacreBinary, flags, { cwd: folder, encoding: "utf8", timeout: 120_000 });
 
 /** The set most tests look at: a small angiogram's shells, and its page. */
 export function makeAngiogram() {
