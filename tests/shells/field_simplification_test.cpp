@@ -148,7 +148,7 @@ TEST(FieldSimplification, AxesOfOneVoxelStaySound) {
 }
 
 TEST(FieldSimplification, ExtremeSpacingsStaySound) {
-  Volume volume = testing::random_volume<float>({9, 9, 9}, 0, 1);
+  Volume volume = testing::random_volume<float>({7, 7, 7}, 0, 1);
   for (const glm::dvec3 spacing :
        {glm::dvec3(1, 1, 1000), glm::dvec3(1000, 1, 1), glm::dvec3(1e-6), glm::dvec3(1e6)}) {
     volume.world_from_voxel = glm::scale(glm::dmat4(1.0), spacing);
@@ -160,9 +160,9 @@ TEST(FieldSimplification, ExtremeValuesStaySound) {
   const auto check = [](const Volume& volume, double lo, double hi) {
     expect_sound(build(volume, EmissionMap::window(lo, hi), uniform_levels(3), 0.05).set);
   };
-  check(testing::random_volume<float>({8, 8, 8}, 1e-38, 2e-38), 1e-38, 2e-38);
-  check(testing::random_volume<float>({8, 8, 8}, -1e38, 1e38), -1e38, 1e38);
-  check(testing::random_volume<std::int16_t>({8, 8, 8}, -32768, 32767), -32768, 32767);
+  check(testing::random_volume<float>({6, 6, 6}, 1e-38, 2e-38), 1e-38, 2e-38);
+  check(testing::random_volume<float>({6, 6, 6}, -1e38, 1e38), -1e38, 1e38);
+  check(testing::random_volume<std::int16_t>({6, 6, 6}, -32768, 32767), -32768, 32767);
 }
 
 TEST(FieldSimplification, LevelsAlmostAtOnePlaceStaySound) {
