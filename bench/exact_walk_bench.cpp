@@ -1,4 +1,6 @@
 #include <benchmark/benchmark.h>
+#include <tbb/blocked_range2d.h>
+#include <tbb/parallel_for.h>
 
 #include <numbers>
 #include <vector>
@@ -59,29 +61,67 @@ BENCHMARK_CAPTURE(exact_frame, max, PictureMode::Max, kNone)
     ->Arg(400)
     ->Arg(100)
     ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
     ->UseRealTime();
 BENCHMARK_CAPTURE(exact_frame, max_nearer, PictureMode::Max, kNearer)
     ->ArgName("lo")
     ->Arg(400)
     ->Arg(100)
     ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
     ->UseRealTime();
 BENCHMARK_CAPTURE(exact_frame, max_farther, PictureMode::Max, kFarther)
     ->ArgName("lo")
     ->Arg(400)
     ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
     ->UseRealTime();
 BENCHMARK_CAPTURE(exact_frame, sum, PictureMode::Sum, kNone)
     ->ArgName("lo")
     ->Arg(400)
     ->Arg(100)
     ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
     ->UseRealTime();
 BENCHMARK_CAPTURE(exact_frame, sum_nearer, PictureMode::Sum, kNearer)
     ->ArgName("lo")
     ->Arg(400)
     ->Arg(100)
     ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
+
+/// The same maximum ray by ray: what the picture by cells is compared with.
+void rays_frame(benchmark::State& state, DepthCue cue) {
+  const ExactWalk walk(angiogram(), window_of(state));
+  time_frames(state, [&](const Camera& camera) {
+    Image image = make_image(kSide, kSide);
+    const CueField field = cue_field(cue, camera);
+    tbb::parallel_for(tbb::blocked_range2d<int>(0, kSide, 16, 0, kSide, 16), [&](const auto& tile) {
+      for (int y = tile.rows().begin(); y != tile.rows().end(); ++y) {
+        for (int x = tile.cols().begin(); x != tile.cols().end(); ++x) {
+          const Ray ray = picture_ray(camera, x + 0.5, y + 0.5);
+          image.at(x, y) =
+              static_cast<float>(walk.max_emission(ray, visible_interval(camera, ray, {}), field));
+        }
+      }
+    });
+    return image;
+  });
+}
+BENCHMARK_CAPTURE(rays_frame, max, kNone)
+    ->ArgName("lo")
+    ->Arg(400)
+    ->Arg(100)
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
+BENCHMARK_CAPTURE(rays_frame, max_nearer, kNearer)
+    ->ArgName("lo")
+    ->Arg(400)
+    ->Arg(100)
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
     ->UseRealTime();
 
 /// Ideal shells of the narrow window.
@@ -98,22 +138,26 @@ BENCHMARK_CAPTURE(ideal_frame, max, PictureMode::Max)
     ->Arg(24)
     ->Arg(200)
     ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
     ->UseRealTime();
 BENCHMARK_CAPTURE(ideal_frame, sum, PictureMode::Sum)
     ->ArgName("levels")
     ->Arg(24)
     ->Arg(200)
     ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
     ->UseRealTime();
 BENCHMARK_CAPTURE(ideal_frame, count, PictureMode::Count)
     ->ArgName("levels")
     ->Arg(24)
     ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
     ->UseRealTime();
 BENCHMARK_CAPTURE(ideal_frame, iso, PictureMode::Iso)
     ->ArgName("levels")
     ->Arg(1)
     ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
     ->UseRealTime();
 
 void exact_walk_setup(benchmark::State& state) {

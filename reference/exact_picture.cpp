@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "reference/max_by_cells.h"
 
 namespace nacre {
 namespace {
@@ -33,6 +34,13 @@ double pixel_value(const RayValue& value, const Camera& camera, const ExactPictu
     interval.t_end_mm = std::min(interval.t_end_mm, t_tool);
   }
   return value(ray, interval);
+}
+
+void drop_unseen_tools(Picture& picture) {
+  const auto seen = [](const ToolLayer& layer) {
+    return std::any_of(layer.covered.begin(), layer.covered.end(), [](auto c) { return c != 0; });
+  };
+  if (picture.tools && !seen(*picture.tools)) picture.tools.reset();
 }
 
 /// One ray a pixel, on all cores.
@@ -59,10 +67,7 @@ Picture picture_of(const RayValue& value, const Camera& camera, const ExactPictu
         meter.advance(tile.rows().size() * tile.cols().size());
       },
       tbb::simple_partitioner());
-  const auto seen = [](const ToolLayer& layer) {
-    return std::any_of(layer.covered.begin(), layer.covered.end(), [](auto c) { return c != 0; });
-  };
-  if (picture.tools && !seen(*picture.tools)) picture.tools.reset();
+  drop_unseen_tools(picture);
   return picture;
 }
 
@@ -87,7 +92,7 @@ Picture crossing_picture(const LayerWalk& layers, const Camera& camera,
                                             : picture_of(iso, camera, options, progress);
 }
 
-/// Max and sum, of what has both (ExactWalk, LayerWalk).
+/// Max and sum of ideal shells, and sum of the volume.
 template <class Walk>
 Picture emission_picture(const Walk& walk, const Camera& camera, const ExactPictureOptions& options,
                          const ProgressCallback& progress) {
@@ -102,6 +107,15 @@ Picture emission_picture(const Walk& walk, const Camera& camera, const ExactPict
                                           : picture_of(sum, camera, options, progress);
 }
 
+Picture max_picture(const ExactWalk& walk, const Camera& camera, const ExactPictureOptions& options,
+                    const ProgressCallback& progress) {
+  Picture picture =
+      max_picture_by_cells({&walk.field(), &walk.bright_bricks(), &walk.cued_emission()}, camera,
+                           options.cue, options.slab, options.tools, progress);
+  drop_unseen_tools(picture);
+  return picture;
+}
+
 bool shows_crossings(PictureMode mode) {
   return mode == PictureMode::Count || mode == PictureMode::Iso;
 }
@@ -111,6 +125,7 @@ bool shows_crossings(PictureMode mode) {
 Picture exact_picture(const ExactWalk& walk, const Camera& camera,
                       const ExactPictureOptions& options, const ProgressCallback& progress) {
   check(options);
+  if (options.mode == PictureMode::Max) return max_picture(walk, camera, options, progress);
   if (!shows_crossings(options.mode)) return emission_picture(walk, camera, options, progress);
   return crossing_picture(LayerWalk(walk, options.levels), camera, options, progress);
 }

@@ -2,20 +2,34 @@
 
 #include <algorithm>
 #include <limits>
+#include <mutex>
 
+#include "reference/bright_bricks.h"
+#include "reference/cued_emission.h"
 #include "reference/walk_field.h"
 #include "reference/walk_integral.h"
 #include "reference/walk_maximum.h"
 
 namespace nacre {
 
+struct ExactWalk::OnceBright {
+  std::once_flag made;
+  BrightBricks bricks;
+};
+
 ExactWalk::ExactWalk(const Volume& volume, const EmissionMap& emission)
     : field_(std::make_unique<const WalkField>(volume, emission)),
-      cued_emission_(std::make_unique<const CuedEmission>(field_->emission_of_field)) {}
+      cued_emission_(std::make_unique<const CuedEmission>(field_->emission_of_field)),
+      bright_(std::make_unique<OnceBright>()) {}
 
 ExactWalk::~ExactWalk() = default;
 ExactWalk::ExactWalk(ExactWalk&&) noexcept = default;
 ExactWalk& ExactWalk::operator=(ExactWalk&&) noexcept = default;
+
+const BrightBricks& ExactWalk::bright_bricks() const {
+  std::call_once(bright_->made, [&] { bright_->bricks = make_bright_bricks(*field_); });
+  return bright_->bricks;
+}
 
 double ExactWalk::max_emission(const Ray& ray, const RayInterval& interval,
                                const CueField& cue) const {

@@ -11,6 +11,7 @@
 namespace nacre {
 
 struct WalkField;
+struct BrightBricks;
 class CuedEmission;
 
 /// Exact maximum and integral of a volume's emission along rays, with and without a depth cue.
@@ -45,9 +46,18 @@ class ExactWalk {
   /// The prepared volume, for other walks of it (`LayerWalk`).
   const WalkField& field() const { return *field_; }
 
+  /// The emission's map prepared for cues, in field units.
+  const CuedEmission& cued_emission() const { return *cued_emission_; }
+
+  /// Where the volume is bright. Made when first asked for, in one pass; safe from many threads.
+  const BrightBricks& bright_bricks() const;
+
  private:
+  struct OnceBright;
+
   std::unique_ptr<const WalkField> field_;
   std::unique_ptr<const CuedEmission> cued_emission_;
+  std::unique_ptr<OnceBright> bright_;
 };
 
 }  // namespace nacre

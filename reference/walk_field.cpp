@@ -66,6 +66,16 @@ int face_axis(const CellLine& line, const glm::i64vec3& cells, bool entering) {
 
 }  // namespace
 
+double least_field_above(const EmissionMap& map, double needed) {
+  constexpr double kSafely = 1.0 - 1e-12;
+  const double darkest = map.knots().front().emission;
+  if (needed >= map.knots().back().emission) return std::numeric_limits<double>::infinity();
+  if (needed * kSafely <= darkest) return map.lo();
+  const double value = map.value_at(needed * kSafely);
+  // In a piece that is hardly wider than an ulp the value may be rounded up.
+  return map(value) <= needed ? value : map.lo();
+}
+
 CellFrame::CellFrame(const Volume& volume, const glm::i64vec3& cells)
     : world_from_cell(volume.world_from_voxel),
       cell_from_world(glm::inverse(world_from_cell)),

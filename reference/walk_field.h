@@ -58,6 +58,10 @@ struct BoxPassage : EnteredLine {
   std::optional<int> exit_axis;   ///< none where it is cut off inside
 };
 
+/// The value that the field must exceed for its emission to exceed `needed`: never above the true
+/// one, so that nothing is skipped for rounding.
+double least_field_above(const EmissionMap& map, double needed);
+
 /// A volume prepared for rays: what all walks of it share.
 ///
 /// The walks work in "field" units, factor * stored: rising with the value also where the slope is

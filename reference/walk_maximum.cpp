@@ -1,24 +1,11 @@
 #include "reference/walk_maximum.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "reference/cell_reader.h"
 
 namespace nacre {
 namespace {
-
-/// The value that the field must exceed for its emission to exceed `needed`: never above the true
-/// one, so that nothing is skipped for rounding.
-double least_field_above(const EmissionMap& map, double needed) {
-  constexpr double kSafely = 1.0 - 1e-12;
-  const double darkest = map.knots().front().emission;
-  if (needed >= map.knots().back().emission) return std::numeric_limits<double>::infinity();
-  if (needed * kSafely <= darkest) return map.lo();
-  const double value = map.value_at(needed * kSafely);
-  // In a piece that is hardly wider than an ulp the value may be rounded up.
-  return map(value) <= needed ? value : map.lo();
-}
 
 /// max { beta T } over the cells of a line along which beta falls.
 template <class T>

@@ -45,12 +45,15 @@ std::vector<ShownLevel> shown_levels(const ShellSet& set, std::span<const std::u
 
 void check_same_volume(const Volume& volume, const VolumeFacts& facts) {
   if (volume.dims != facts.dims || volume.type != facts.type) {
+    // A map that falls is applied to the volume first, which makes it one of floats.
+    const bool may_be_mapped = volume.dims == facts.dims && facts.type == ScalarType::F32;
     throw Error(
         ErrorCode::BadArgument,
         fmt::format("volume: found {} x {} x {} samples of {}, expected {} x {} x {} of {}, "
-                    "which the shell set was made from",
+                    "which the shell set was made from{}",
                     volume.dims.x, volume.dims.y, volume.dims.z, name(volume.type), facts.dims.x,
-                    facts.dims.y, facts.dims.z, name(facts.type)));
+                    facts.dims.y, facts.dims.z, name(facts.type),
+                    may_be_mapped ? " (if by a --map that falls: with that --map)" : ""));
   }
   const std::uint64_t checksum = voxel_checksum(volume);
   if (checksum != facts.checksum) {

@@ -1,0 +1,96 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "core/camera.h"
+#include "reference/bright_bricks.h"
+#include "reference/walk_field.h"
+
+namespace nacre {
+
+/// Pixels x0 <= x < x1, y0 <= y < y1; none unless both are so.
+struct PixelRectangle {
+  int x0 = 0;
+  int y0 = 0;
+  int x1 = 0;
+  int y1 = 0;
+
+  bool empty() const { return x0 >= x1 || y0 >= y1; }
+};
+
+inline PixelRectangle intersection(const PixelRectangle& a, const PixelRectangle& b) {
+  return {a.x0 > b.x0 ? a.x0 : b.x0, a.y0 > b.y0 ? a.y0 : b.y0, a.x1 < b.x1 ? a.x1 : b.x1,
+          a.y1 < b.y1 ? a.y1 : b.y1};
+}
+
+/// Where cubes of cells lie in the picture of a camera.
+///
+/// A point p in cell coordinates is seen at (center_px.x + X/W, center_px.y - Y/W), with X, Y and W
+/// affine in p (W = 1 in an orthographic picture). A cube's X, Y and W are within an interval each;
+/// the quotient's bounds bound its picture.
+class CellRectangles {
+ public:
+  CellRectangles(const WalkField& field, const Camera& camera);
+
+  /// The pixels whose centres a cube of cells may cover, within `frame`: a rectangle around them,
+  /// never smaller. Nothing behind the eye.
+  ///
+  /// @param first_cell  the cube's lower corner
+  /// @param side        cells along its edge
+  PixelRectangle of(const glm::ivec3& first_cell, int side, const PixelRectangle& frame) const;
+
+  /// The pixels that cell `index` (x + 4 y + 16 z) of the brick may cover: as `of` with side 1.
+  PixelRectangle of_cell(const glm::ivec3& first_cell, int index,
+                         const PixelRectangle& frame) const {
+    if (perspective_) {
+      return of(first_cell + glm::ivec3(index & 3, (index >> 2) & 3, index >> 4), 1, frame);
+    }
+    const double x =
+        center_px_.x + x_(glm::dvec3(first_cell)) + cell_x_[static_cast<std::size_t>(index)];
+    const double y =
+        center_px_.y - y_(glm::dvec3(first_cell)) - cell_y_[static_cast<std::size_t>(index)];
+    return around(x, y, x_.half_cell, y_.half_cell, frame);
+  }
+
+ private:
+  struct Affine {
+    double at_origin = 0.0;
+    glm::dvec3 rise{0.0};
+    double half_cell = 0.0;  ///< the most it changes within half a cell's edge from its centre
+
+    double operator()(const glm::dvec3& p) const {
+      return at_origin + (rise.x * p.x + (rise.y * p.y + rise.z * p.z));
+    }
+  };
+  static Affine affine(const WalkField& field, const glm::dvec3& axis, const glm::dvec3& from_mm,
+                       double scale);
+
+  /// Pixels of `frame` with their centres within a box about (x, y), or a hair outside.
+  static PixelRectangle around(double x, double y, double half_x, double half_y,
+                               const PixelRectangle& frame) {
+    constexpr double kHair = 1e-6;  // pixels: far above the rounding of 1e5 of them
+    // A cast rounds towards zero: what is below it lies before the frame in any case.
+    const auto first = [](double least, int from, int to) {
+      return static_cast<int>(std::clamp<double>(least + (0.5 - kHair), from, to));
+    };
+    const auto end = [](double greatest, int from, int to) {
+      return static_cast<int>(std::clamp<double>(greatest + (0.5 + kHair), from, to));
+    };
+    return {first(x - half_x, frame.x0, frame.x1), first(y - half_y, frame.y0, frame.y1),
+            end(x + half_x, frame.x0, frame.x1), end(y + half_y, frame.y0, frame.y1)};
+  }
+
+  glm::dvec2 center_px_;
+  Affine x_;
+  Affine y_;
+  Affine w_;
+  bool perspective_;
+  static constexpr int kBrick = BrightBricks::kSide;
+  std::array<double, kBrick * kBrick * kBrick> cell_x_{};  ///< of a cell's centre, from the brick
+  std::array<double, kBrick * kBrick * kBrick> cell_y_{};
+};
+
+}  // namespace nacre

@@ -1,0 +1,332 @@
+#include "reference/max_by_cells.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <glm/common.hpp>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "reference/brick_samples.h"
+#include "reference/tile_lists.h"
+#include "reference/tile_rays.h"
+
+namespace nacre {
+namespace {
+
+constexpr int kBrick = BrightBricks::kSide;
+
+/// The cue in cell coordinates.
+class CellCue {
+ public:
+  CellCue(const WalkField& field, const CueField& cue)
+      : rise_(glm::transpose(field.frame.world_from_cell) * cue.rise_per_mm),
+        at_origin_(cue.at_center +
+                   glm::dot(cue.rise_per_mm, field.frame.center_mm - cue.center_mm) -
+                   glm::dot(rise_, field.frame.center_cell)) {}
+
+  /// Never below the greatest cue within a cube of cells.
+  double greatest(const glm::ivec3& first_cell, int side) const {
+    constexpr double kSafely = 1e-12;
+    const double half = 0.5 * side;
+    const double at_center = at_origin_ + glm::dot(rise_, glm::dvec3(first_cell) + half);
+    const double around = half * (std::abs(rise_.x) + std::abs(rise_.y) + std::abs(rise_.z));
+    return std::max(0.0, at_center + around + kSafely * (std::abs(at_origin_) + around));
+  }
+
+ private:
+  glm::dvec3 rise_;
+  double at_origin_;
+};
+
+/// What differs between an uncued and a cued picture: the unit of `best`, and what cells do to it.
+///
+/// Uncued: field units, from the map's first knot to its last; the map is applied at the end.
+class PlainMaximum {
+ public:
+  PlainMaximum(const MaxByCells& scene, const CueField& cue)
+      : kernel_(scene.kernel),
+        emission_(scene.field->emission_of_field),
+        factor_(std::max(0.0, cue.at_center)) {}
+
+  static constexpr bool kOrdered = true;  ///< bricks come the brightest first
+
+  double upper(const BrightBrick& brick) const { return std::min(brick.greatest, emission_.hi()); }
+  double start(std::size_t, const PixelLine&, TileRays&) const { return emission_.lo(); }
+  double shown(double best) const { return factor_ * emission_(best); }
+
+  /// @return  the field that a cell of the brick must exceed for it to exceed `floor`
+  double begin_brick(const BrightBrick&, double floor) const { return floor; }
+  double upper_of_cell(double greatest) const { return std::min(greatest, emission_.hi()); }
+
+  void raise(TileRays&, const LaneRays& lanes, const BrickSamples& samples, const BrickCell& cell,
+             const LaneRectangle& rectangle) const {
+    kernel_.raise_maxima(lanes, samples, cell, rectangle);
+  }
+
+ private:
+  CellKernel kernel_;
+  const EmissionMap& emission_;
+  double factor_;
+};
+
+/// The least line from the first knot that the map stays below.
+EmissionBound bound_of(const EmissionMap& map) {
+  constexpr double kSafely = 1e-9;
+  const EmissionKnot& first = map.knots().front();
+  double slope = 0.0;
+  for (const EmissionKnot& knot : map.knots().subspan(1)) {
+    slope = std::max(slope, (knot.emission - first.emission) / (knot.value - first.value));
+  }
+  const double at_0 = first.emission - slope * first.value;
+  return {at_0 + kSafely * (1.0 + std::abs(at_0)), slope};
+}
+
+/// Cued: emission times cue.
+class CuedMaximum {
+ public:
+  CuedMaximum(const MaxByCells& scene, const CueField& cue)
+      : scene_(scene),
+        cue_(cue),
+        cell_cue_(*scene.field, cue),
+        bound_(bound_of(scene.field->emission_of_field)) {}
+
+  static constexpr bool kOrdered = false;
+
+  double upper(const BrightBrick& brick) const {
+    return brick.emission * cell_cue_.greatest(brick.first_cell, kBrick);
+  }
+
+  double start(std::size_t ray, const PixelLine& pixel, TileRays& rays) const {
+    const EnteredLine entered{pixel.line, pixel.visible, pixel.t_shift_mm};
+    const LineCue beta = scene_.field->along(cue_, Ray{{}, pixel.direction_mm}, entered);
+    rays.set_cue(ray, beta);
+    const double darkest = scene_.field->emission_of_field.knots().front().emission;
+    if (darkest == 0.0) return 0.0;
+    return darkest * std::max(beta(pixel.visible.t_enter), beta(pixel.visible.t_exit));
+  }
+
+  double shown(double best) const { return best; }
+
+  double begin_brick(const BrightBrick& brick, double floor) {
+    beta_of_brick_ = cell_cue_.greatest(brick.first_cell, kBrick);
+    return least_field_above(scene_.field->emission_of_field, floor / beta_of_brick_);
+  }
+  double upper_of_cell(double greatest) const {
+    return scene_.field->emission_of_field(greatest) * beta_of_brick_;
+  }
+
+  void raise(TileRays& rays, const LaneRays& lanes, const BrickSamples& samples,
+             const BrickCell& cell, const LaneRectangle& rectangle) const {
+    struct Context {
+      const CuedEmission& emission;
+      const TileRays& rays;
+      double* best;
+    } context{*scene_.emission, rays, lanes.best};
+    const auto visit = [](void* to, std::size_t ray, const CellPart& part) {
+      const auto& [emission, cues, best] = *static_cast<const Context*>(to);
+      const LineCue beta = cues.cue(ray);
+      best[ray] = emission.maximum_above(best[ray], {{part.b[0], part.b[1], part.b[2], part.b[3]}},
+                                         {beta(part.t_enter), beta(part.t_exit)});
+    };
+    scene_.kernel.visit_parts(lanes, samples, cell, rectangle, bound_, {visit, &context});
+  }
+
+ private:
+  const MaxByCells& scene_;
+  CueField cue_;
+  CellCue cell_cue_;
+  EmissionBound bound_;
+  double beta_of_brick_ = 0.0;
+};
+
+/// A picture's frame for all tiles.
+struct Frame {
+  const MaxByCells& scene;
+  const Camera& camera;
+  const DepthCue& cue;
+  const ToolRays* tools;
+  CueField cue_field;
+  PixelLines lines;
+  CellRectangles rectangles;
+  std::vector<PixelRectangle> of_brick;  ///< of each bright brick
+  TileLists lists;
+};
+
+/// What a thread works with.
+template <class Maximum>
+struct Workplace {
+  explicit Workplace(const Frame& frame) : maximum(frame.scene, frame.cue_field) {}
+
+  Maximum maximum;
+  TileRays rays;
+  BrickSamples samples{};
+  struct Item {
+    double upper;
+    std::uint32_t brick;
+  };
+  std::vector<Item> items;
+};
+
+PixelRectangle tile_rectangle(const TileLists& lists, std::size_t tile, const glm::ivec2& size) {
+  const auto across = static_cast<std::size_t>(lists.tiles.x);
+  const int x = static_cast<int>(tile % across) * TileRays::kSide;
+  const int y = static_cast<int>(tile / across) * TileRays::kSide;
+  return {x, y, std::min(x + TileRays::kSide, size.x), std::min(y + TileRays::kSide, size.y)};
+}
+
+PixelRectangle within(const PixelRectangle& tile, const PixelRectangle& r) {
+  return {r.x0 - tile.x0, r.y0 - tile.y0, r.x1 - tile.x0, r.y1 - tile.y0};
+}
+
+/// The tile's bricks with what they can reach, the brightest first.
+template <class Maximum>
+void list_items(const Frame& frame, std::size_t tile, Workplace<Maximum>& work) {
+  work.items.clear();
+  for (const std::uint32_t i : frame.lists.of(tile)) {
+    work.items.push_back({work.maximum.upper(frame.scene.bright->bricks[i]), i});
+  }
+  if (!Maximum::kOrdered) {
+    std::stable_sort(work.items.begin(), work.items.end(),
+                     [](const auto& a, const auto& b) { return a.upper > b.upper; });
+  }
+}
+
+/// Sets up the rays of a tile. Tools are put into the picture on the way.
+template <class Maximum>
+void start_rays(const Frame& frame, const PixelRectangle& tile, Workplace<Maximum>& work,
+                Picture& picture) {
+  work.rays.clear();
+  for (int y = tile.y0; y < tile.y1; ++y) {
+    for (int x = tile.x0; x < tile.x1; ++x) {
+      double t_tool = std::numeric_limits<double>::infinity();
+      if (picture.tools) {
+        const Ray ray = picture_ray(frame.camera, x + 0.5, y + 0.5);
+        t_tool = draw_tool_pixel(*frame.tools, frame.camera, frame.cue, ray, x, y, *picture.tools);
+      }
+      if (work.items.empty() && !frame.lines.shows_always()) continue;
+      auto line = frame.lines.at(x, y);
+      if (!line) continue;
+      line->visible.t_exit = std::min(line->visible.t_exit, t_tool - line->t_shift_mm);
+      if (!(line->visible.t_enter < line->visible.t_exit)) continue;
+      const std::size_t ray = TileRays::index(x - tile.x0, y - tile.y0);
+      work.rays.put(x - tile.x0, y - tile.y0, *line, work.maximum.start(ray, *line, work.rays));
+    }
+  }
+}
+
+/// @param rectangle  the brick's, within the tile
+/// @param floor      the least of what is seen there
+template <class Maximum>
+void draw_brick(const Frame& frame, const BrightBrick& brick, const PixelRectangle& tile,
+                const PixelRectangle& rectangle, double floor, const LaneRays& lanes,
+                Workplace<Maximum>& work) {
+  load_samples(*frame.scene.field, brick.first_cell, work.samples);
+  std::array<double, static_cast<std::size_t>(kBrick * kBrick * kBrick)> greatest;
+  unsigned long long cells = frame.scene.kernel.greatest_corners(
+      work.samples, work.maximum.begin_brick(brick, floor), greatest.data());
+  cells &= cells_within(glm::ivec3(frame.scene.field->cells) - brick.first_cell);
+  for (; cells != 0; cells &= cells - 1) {
+    const int cell = std::countr_zero(cells);
+    const PixelRectangle pixels =
+        within(tile, frame.rectangles.of_cell(brick.first_cell, cell, rectangle));
+    if (pixels.empty()) continue;
+    const double upper = work.maximum.upper_of_cell(greatest[static_cast<std::size_t>(cell)]);
+    work.maximum.raise(work.rays, lanes, work.samples,
+                       {cell % kBrick, cell / kBrick % kBrick, cell / kBrick / kBrick, upper},
+                       {pixels.x0, pixels.y0, pixels.x1, pixels.y1});
+  }
+}
+
+template <class Maximum>
+void draw_tile(const Frame& frame, std::size_t tile, Workplace<Maximum>& work, Picture& picture) {
+  const PixelRectangle pixels = tile_rectangle(frame.lists, tile, frame.camera.size);
+  list_items(frame, tile, work);
+  start_rays(frame, pixels, work, picture);
+  const LaneRays lanes = work.rays.lanes();
+  constexpr std::size_t kBetweenLooks = 16;
+  for (std::size_t i = 0; i < work.items.size(); ++i) {
+    const double upper = work.items[i].upper;
+    if (i % kBetweenLooks == 0 && !(upper > work.rays.least_best(within(pixels, pixels)))) break;
+    const BrightBrick& bright = frame.scene.bright->bricks[work.items[i].brick];
+    const PixelRectangle rectangle = intersection(frame.of_brick[work.items[i].brick], pixels);
+    const double floor = work.rays.least_best(within(pixels, rectangle));
+    if (!(upper > floor)) continue;
+    draw_brick(frame, bright, pixels, rectangle, floor, lanes, work);
+  }
+  for (int y = pixels.y0; y < pixels.y1; ++y) {
+    for (int x = pixels.x0; x < pixels.x1; ++x) {
+      const double best = work.rays.best(x - pixels.x0, y - pixels.y0);
+      if (std::isfinite(best)) {
+        picture.volume.at(x, y) = static_cast<float>(work.maximum.shown(best));
+      }
+    }
+  }
+}
+
+template <class Maximum>
+void draw_tiles(const Frame& frame, Picture& picture, const ProgressCallback& progress) {
+  const std::size_t tiles = frame.lists.begin.size() - 1;
+  ProgressMeter meter(progress, "rays", tiles);
+  tbb::enumerable_thread_specific<Workplace<Maximum>> workplaces(
+      [&] { return Workplace<Maximum>(frame); });
+  // Each tile is drawn by one thread alone, so the number of threads cannot show.
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, tiles, 1),
+      [&](const auto& range) {
+        for (std::size_t tile = range.begin(); tile != range.end(); ++tile) {
+          draw_tile(frame, tile, workplaces.local(), picture);
+          meter.advance();
+        }
+      },
+      tbb::simple_partitioner());
+}
+
+std::vector<PixelRectangle> rectangles_of(const BrightBricks& bright,
+                                          const CellRectangles& rectangles,
+                                          const glm::ivec2& size) {
+  std::vector<PixelRectangle> result(bright.bricks.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, result.size()), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i != range.end(); ++i) {
+      result[i] = rectangles.of(bright.bricks[i].first_cell, kBrick, {0, 0, size.x, size.y});
+    }
+  });
+  return result;
+}
+
+}  // namespace
+
+Picture max_picture_by_cells(const MaxByCells& scene, const Camera& camera, const DepthCue& cue,
+                             const Slab& slab, const ToolRays* tools,
+                             const ProgressCallback& progress) {
+  const CellRectangles rectangles(*scene.field, camera);
+  std::vector<PixelRectangle> of_brick = rectangles_of(*scene.bright, rectangles, camera.size);
+  TileLists lists = make_tile_lists(of_brick, camera.size, TileRays::kSide);
+  const Frame frame{scene,
+                    camera,
+                    cue,
+                    tools,
+                    nacre::cue_field(cue, camera),
+                    PixelLines(*scene.field, camera, slab),
+                    rectangles,
+                    std::move(of_brick),
+                    std::move(lists)};
+  Picture picture{make_image(camera.size.x, camera.size.y), std::nullopt};
+  if (tools != nullptr && !tools->empty()) {
+    picture.tools = make_tool_layer(camera.size.x, camera.size.y);
+  }
+  if (is_flat(frame.cue_field)) {
+    draw_tiles<PlainMaximum>(frame, picture, progress);
+  } else {
+    draw_tiles<CuedMaximum>(frame, picture, progress);
+  }
+  return picture;
+}
+
+}  // namespace nacre

@@ -1,0 +1,110 @@
+#pragma once
+
+#include <cstddef>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <vector>
+
+#include "core/camera.h"
+#include "core/picture.h"
+#include "reference/cell_kernel.h"
+#include "reference/cell_rectangles.h"
+#include "reference/walk_field.h"
+
+namespace nacre {
+
+/// A pixel's ray in cell coordinates, its visible part, and where on it t = 0 is.
+struct PixelLine {
+  CellLine line;
+  LineInterval visible;
+  double t_shift_mm;        ///< of the camera's ray (`picture_ray`), at the line's t = 0
+  glm::dvec3 direction_mm;  ///< of that ray, of unit length
+};
+
+/// The rays of a camera's pixels in cell coordinates, each counted from near the volume.
+class PixelLines {
+ public:
+  /// @param field  outlives this object
+  PixelLines(const WalkField& field, const Camera& camera, const Slab& slab);
+
+  /// The ray through a pixel's centre; nothing where it misses the volume's box for certain (others
+  /// may miss it too). Rays in or along a border plane are treated as `clip_to_grid` does.
+  std::optional<PixelLine> at(int x, int y) const;
+
+  /// Whether the volume's darkest is not 0, so that each ray through its box shows something; then
+  /// `at` gives the part inside the box.
+  bool shows_always() const { return shows_always_; }
+
+ private:
+  std::optional<PixelLine> entered(int x, int y) const;
+
+  const WalkField& field_;
+  const Camera& camera_;
+  Slab slab_;
+  bool shows_always_;
+  /// Orthographic: of the picture's upper left corner, and to the next pixel.
+  CellLine first_;
+  LineInterval visible_{0.0, 0.0};
+  glm::dvec3 right_{0.0};
+  glm::dvec3 down_{0.0};
+};
+
+/// The rays of a tile of pixels, in arrays for the kernel.
+class TileRays {
+ public:
+  static constexpr int kSide = 32;  ///< pixels
+
+  TileRays();
+
+  /// All rays of a tile to nothing: no ray, best = infinity.
+  void clear();
+
+  /// @param x, y  within the tile
+  void put(int x, int y, const PixelLine& ray, double best);
+
+  /// The cue along a ray that was put.
+  void set_cue(std::size_t ray, const LineCue& beta) {
+    column(kBetaAt)[ray] = beta.at_enter;
+    column(kBetaRise)[ray] = beta.rise_per_mm;
+  }
+  LineCue cue(std::size_t ray) const { return {column(kBetaAt)[ray], column(kBetaRise)[ray]}; }
+
+  /// The arrays, as put so far.
+  LaneRays lanes();
+
+  static std::size_t index(int x, int y) {
+    return static_cast<std::size_t>(y) * kStride + static_cast<std::size_t>(x);
+  }
+
+  double best(int x, int y) const { return column(kBest)[index(x, y)]; }
+
+  /// The least `best` within a rectangle of the tile.
+  double least_best(const PixelRectangle& rectangle) const;
+
+ private:
+  enum Column {
+    kOrigin,
+    kDirection = 3,
+    kInverse = 6,
+    kSlack = 9,
+    kBegin = 12,
+    kEnd,
+    kBest,
+    kBetaAt,
+    kBetaRise,
+    kColumns
+  };
+  static constexpr std::size_t kPadding = 4;  ///< a vector
+  static constexpr std::size_t kStride = kSide + kPadding;
+  static constexpr std::size_t kRays = kSide * kStride;
+
+  double* column(int i) { return figures_.data() + static_cast<std::size_t>(i) * kRays; }
+  const double* column(int i) const {
+    return figures_.data() + static_cast<std::size_t>(i) * kRays;
+  }
+
+  std::vector<double> figures_;
+  bool any_slack_ = false;
+};
+
+}  // namespace nacre
