@@ -93,6 +93,8 @@ H96Case measured_case(const TableVolume& table, std::size_t levels, int views, R
   MeasurementOptions options;
   options.methods = h96_methods(levels);
   options.cameras = cameras_about(volume, views);
+  constexpr double kSecondsACase = 20.0;
+  options.budget_seconds = kSecondsACase;
   H96Case result{table.data_set, table.source,
                  fmt::format("{} x {} x {}", volume.dims.x, volume.dims.y, volume.dims.z), levels,
                  measure(volume, table.input.emission, options, reporter.progress())};
