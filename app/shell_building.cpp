@@ -2,8 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <cmath>
-#include <glm/geometric.hpp>
 #include <vector>
 
 #include "app/build_words.h"
@@ -11,17 +9,10 @@
 #include "io/draco_decode.h"
 #include "shells/build.h"
 #include "shells/crossings.h"
+#include "shells/prune.h"
 
 namespace nacre {
 namespace {
-
-// Less is one sample that reaches its level and less than a quarter of the way to its neighbours.
-constexpr double kSpeckVoxels = 1.0 / 64.0;
-
-double voxel_mm3(const Volume& volume) {
-  const glm::dmat4& m = volume.world_from_voxel;
-  return std::abs(glm::dot(glm::dvec3(m[0]), glm::cross(glm::dvec3(m[1]), glm::dvec3(m[2]))));
-}
 
 BuildOptions options_of(const ShellFlags& flags, const EmissionVolume& input, Reporter& reporter,
                         BuildFigures& figures) {
@@ -36,7 +27,7 @@ BuildOptions options_of(const ShellFlags& flags, const EmissionVolume& input, Re
   options.quantization_bits = flags.quantization;
   if (!flags.keep_specks) {
     options.min_component_mm3 =
-        flags.min_component.value_or(kSpeckVoxels * voxel_mm3(input.volume));
+        flags.min_component.value_or(default_speck_mm3(input.volume.world_from_voxel));
   }
   options.prune_inner = flags.purpose == "max";
   options.progress = reporter.progress();

@@ -37,11 +37,12 @@ std::string exact_line(const Subject& subject, const CommandTexts& texts) {
 std::string build_line(const ShellRecipe& recipe, const CommandTexts& texts) {
   std::string line =
       fmt::format("nacre build {} --levels {}", texts.volume, text_of(recipe.levels));
+  if (recipe.levels.uniform > 0) line += " --placement uniform";
   if (recipe.tolerance > 0.0) line += fmt::format(" --tolerance {}", recipe.tolerance);
   if (recipe.quantization_bits > 0) {
     line += fmt::format(" --quantization {}", recipe.quantization_bits);
   }
-  return line + " -o shells.glb";
+  return line + " --certificate none -o shells.glb";
 }
 
 std::string render_line(const Method& method, const CommandTexts& texts) {

@@ -15,6 +15,7 @@
 #include "render/gl/gl_renderer.h"
 #include "report/process_memory.h"
 #include "shells/build.h"
+#include "shells/prune.h"
 
 namespace nacre {
 namespace {
@@ -75,6 +76,7 @@ EncodedShells encode_shells(const Volume& volume, const EmissionMap& emission,
   build.placement = recipe.levels.uniform > 0 ? "uniform" : "explicit";
   build.emission_tolerance = recipe.tolerance;
   build.quantization_bits = recipe.quantization_bits;
+  build.min_component_mm3 = default_speck_mm3(volume.world_from_voxel);  // as `nacre build`
   EncodedShells encoded;
   const MemoryWatch memory;
   Volume copy = copy_of(volume);  // a build frees it when it has seen enough of it

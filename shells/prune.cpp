@@ -1,6 +1,8 @@
 #include "shells/prune.h"
 
 #include <tbb/parallel_for.h>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -44,6 +46,11 @@ TriangleMesh kept_part(const TriangleMesh& mesh, const Components& components,
 }
 
 }  // namespace
+
+double default_speck_mm3(const glm::dmat4& world_from_voxel) {
+  constexpr double kSpeckVoxels = 1.0 / 64.0;
+  return kSpeckVoxels * std::abs(glm::determinant(glm::dmat3(world_from_voxel)));
+}
 
 /// Finds the lost islands of one shell around a point.
 class Pruner::LostIslands {

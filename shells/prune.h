@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 #include <vector>
 
@@ -15,6 +16,10 @@ struct PruneOptions {
   /// within them.
   bool prune_inner = false;
 };
+
+/// The volume below which `nacre build` takes a component for a speck: a 64th of a voxel. Less is
+/// one sample that reaches its level and less than a quarter of the way to its neighbours.
+double default_speck_mm3(const glm::dmat4& world_from_voxel);
 
 /// Leaves closed components out of the surfaces of a set, which come one by one.
 ///

@@ -63,7 +63,7 @@ test("a set is served, nothing else is, and SIGINT ends it", async () => {
 });
 
 test("levels are added, moved and deleted while it is served", async () => {
-  const { server, address } = await serve("angiogram.nrrd", "--window", "400,1400", "--levels", "3");
+  const { server, address } = await serve("angiogram.nrrd", "--window", "400,1400", "--levels", "3", "--placement", "uniform");
   const page = await open(browser, address);
   const levels = () => page.locator(".shell input[type=number]").evaluateAll((all) => all.map((field) => Number(field.value)));
   const three = await levels();
