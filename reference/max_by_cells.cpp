@@ -76,13 +76,16 @@ class PlainMaximum {
   double factor_;
 };
 
-/// The least line from the first knot that the map stays below.
+/// The least line from the first knot that the map stays below. Not a number where it is too steep
+/// for one.
 EmissionBound bound_of(const EmissionMap& map) {
   constexpr double kSafely = 1e-9;
   const EmissionKnot& first = map.knots().front();
   double slope = 0.0;
   for (const EmissionKnot& knot : map.knots().subspan(1)) {
-    slope = std::max(slope, (knot.emission - first.emission) / (knot.value - first.value));
+    // Halves, since a difference of values may overflow.
+    slope = std::max(slope, 0.5 * (knot.emission - first.emission) /
+                                (0.5 * knot.value - 0.5 * first.value));
   }
   const double at_0 = first.emission - slope * first.value;
   return {at_0 + kSafely * (1.0 + std::abs(at_0)), slope};

@@ -149,6 +149,25 @@ TEST(MaxByCells, HoldsExtremeSamples) {
   }
 }
 
+TEST(MaxByCells, HoldsWindowsWhoseWidthOrSlopeOverflows) {
+  const auto pattern = [](auto x, auto y, auto z) {
+    return 0.1 + 0.03 * static_cast<double>((x * 7 + y * 5 + z * 3) % 29);
+  };
+  struct Case {
+    double scale;
+    EmissionMap map;
+  };
+  for (const auto& [scale, map] : {Case{1e308, EmissionMap::window(-1.5e308, 1.5e308)},
+                                   Case{1e-310, EmissionMap::window(5e-311, 9e-311)}}) {
+    const Volume volume = volume_of<double>(
+        {9, 9, 9}, [&](auto x, auto y, auto z) { return scale * pattern(x, y, z); });
+    for (const CameraOptions& camera : cameras()) {
+      const Difference difference = against_the_walk(volume, map, camera, {0.7, 0.3, 0.0});
+      EXPECT_LE(difference.most, kUlp);
+    }
+  }
+}
+
 TEST(MaxByCells, StopsAtTools) {
   // A cube within the volume: of its pixels only what lies in front is shown.
   const Volume volume = random_volume<std::uint8_t>({16, 16, 16}, 0, 255);
