@@ -84,8 +84,8 @@ EmissionBound bound_of(const EmissionMap& map) {
   double slope = 0.0;
   for (const EmissionKnot& knot : map.knots().subspan(1)) {
     // Halves, since a difference of values may overflow.
-    slope = std::max(slope, 0.5 * (knot.emission - first.emission) /
-                                (0.5 * knot.value - 0.5 * first.value));
+    slope = std::max(
+        slope, 0.5 * (knot.emission - first.emission) / (0.5 * knot.value - 0.5 * first.value));
   }
   const double at_0 = first.emission - slope * first.value;
   return {at_0 + kSafely * (1.0 + std::abs(at_0)), slope};
@@ -320,15 +320,13 @@ Picture max_picture_by_cells(const MaxByCells& scene, const Camera& camera, cons
                     rectangles,
                     std::move(of_brick),
                     std::move(lists)};
-  Picture picture{make_image(camera.size.x, camera.size.y), std::nullopt};
-  if (tools != nullptr && !tools->empty()) {
-    picture.tools = make_tool_layer(camera.size.x, camera.size.y);
-  }
+  Picture picture = make_picture(camera, tools);
   if (is_flat(frame.cue_field)) {
     draw_tiles<PlainMaximum>(frame, picture, progress);
   } else {
     draw_tiles<CuedMaximum>(frame, picture, progress);
   }
+  drop_unseen_tools(picture);
   return picture;
 }
 
