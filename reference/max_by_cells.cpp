@@ -195,7 +195,7 @@ void list_items(const Frame& frame, std::size_t tile, Workplace<Maximum>& work) 
   for (const std::uint32_t i : frame.lists.of(tile)) {
     work.items.push_back({work.maximum.upper(frame.scene.bright->bricks[i]), i});
   }
-  if (!Maximum::kOrdered) {
+  if constexpr (!Maximum::kOrdered) {
     std::stable_sort(work.items.begin(), work.items.end(),
                      [](const auto& a, const auto& b) { return a.upper > b.upper; });
   }
@@ -251,6 +251,7 @@ template <class Maximum>
 void draw_tile(const Frame& frame, std::size_t tile, Workplace<Maximum>& work, Picture& picture) {
   const PixelRectangle pixels = tile_rectangle(frame.lists, tile, frame.camera.size);
   list_items(frame, tile, work);
+  if (work.items.empty() && !frame.lines.shows_always() && !picture.tools) return;
   start_rays(frame, pixels, work, picture);
   const LaneRays lanes = work.rays.lanes();
   constexpr std::size_t kBetweenLooks = 16;

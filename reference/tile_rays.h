@@ -56,7 +56,7 @@ class TileRays {
 
   TileRays();
 
-  /// All rays of a tile to nothing: no ray, best = infinity.
+  /// No rays: what was put is hidden by best = infinity.
   void clear();
 
   /// @param x, y  within the tile
