@@ -95,11 +95,12 @@ LaneRays TileRays::lanes() {
           column(kEnd), column(kBest), column(kBetaAt), column(kBetaRise), kStride};
 }
 
-double TileRays::least_best(const PixelRectangle& rectangle) const {
+double TileRays::least_best(const PixelRange& rectangle) const {
   double least = std::numeric_limits<double>::infinity();
-  for (int y = rectangle.y0; y < rectangle.y1; ++y) {
+  for (int y = rectangle.first.y; y <= rectangle.last.y; ++y) {
     const double* row = column(kBest) + index(0, y);
-    for (int x = rectangle.x0; x < rectangle.x1; ++x) least = row[x] < least ? row[x] : least;
+    for (int x = rectangle.first.x; x <= rectangle.last.x; ++x)
+      least = row[x] < least ? row[x] : least;
   }
   return least;
 }
