@@ -19,6 +19,7 @@
 namespace nacre {
 namespace {
 
+using testing::camera_of;
 using testing::random_volume;
 using testing::volume_of;
 
@@ -29,10 +30,6 @@ constexpr int kSide = 33;
 #endif
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-
-Camera camera_of(const Volume& volume, const CameraOptions& options) {
-  return make_camera(options, bounding_sphere(volume.dims, volume.world_from_voxel));
-}
 
 /// From outside and inside, along axes and askew, near and far.
 std::vector<CameraOptions> cameras() {
