@@ -41,7 +41,8 @@ ordered_json figures(const ExactFlags& flags, const EmissionVolume& input, const
       {"width", image.width}, {"height", image.height}, {"least", *least}, {"greatest", *greatest}};
   if (result.window) json["display"] = {result.window->lo, result.window->hi};
   if (scene.shows_shells()) json["levels"] = scene.level_figures();
-  json["passes"] = {"walk every ray"};
+  const bool by_cells = flags.picture.mode == "max" && !scene.shows_shells();
+  json["passes"] = {by_cells ? "draw every bright cell" : "walk every ray"};
   json["left_out"] = ordered_json::array();
   json["triangles_drawn"] = 0;
   json["seconds"] = {{"load", timing.load},

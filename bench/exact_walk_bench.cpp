@@ -50,6 +50,11 @@ void time_frames(benchmark::State& state, const Draw& draw) {
   state.SetItemsProcessed(state.iterations() * kSide * kSide);  // rays a second
 }
 
+/// On the clock, with the computing time of all threads beside it.
+void as_frames(benchmark::internal::Benchmark* frames) {
+  frames->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
+}
+
 void exact_frame(benchmark::State& state, PictureMode mode, DepthCue cue) {
   const ExactWalk walk(angiogram(), window_of(state));
   time_frames(state, [&](const Camera& camera) {
@@ -60,36 +65,26 @@ BENCHMARK_CAPTURE(exact_frame, max, PictureMode::Max, kNone)
     ->ArgName("lo")
     ->Arg(400)
     ->Arg(100)
-    ->Unit(benchmark::kMillisecond)
-    ->MeasureProcessCPUTime()
-    ->UseRealTime();
+    ->Apply(as_frames);
 BENCHMARK_CAPTURE(exact_frame, max_nearer, PictureMode::Max, kNearer)
     ->ArgName("lo")
     ->Arg(400)
     ->Arg(100)
-    ->Unit(benchmark::kMillisecond)
-    ->MeasureProcessCPUTime()
-    ->UseRealTime();
+    ->Apply(as_frames);
 BENCHMARK_CAPTURE(exact_frame, max_farther, PictureMode::Max, kFarther)
     ->ArgName("lo")
     ->Arg(400)
-    ->Unit(benchmark::kMillisecond)
-    ->MeasureProcessCPUTime()
-    ->UseRealTime();
+    ->Apply(as_frames);
 BENCHMARK_CAPTURE(exact_frame, sum, PictureMode::Sum, kNone)
     ->ArgName("lo")
     ->Arg(400)
     ->Arg(100)
-    ->Unit(benchmark::kMillisecond)
-    ->MeasureProcessCPUTime()
-    ->UseRealTime();
+    ->Apply(as_frames);
 BENCHMARK_CAPTURE(exact_frame, sum_nearer, PictureMode::Sum, kNearer)
     ->ArgName("lo")
     ->Arg(400)
     ->Arg(100)
-    ->Unit(benchmark::kMillisecond)
-    ->MeasureProcessCPUTime()
-    ->UseRealTime();
+    ->Apply(as_frames);
 
 /// The same maximum ray by ray: what the picture by cells is compared with.
 void rays_frame(benchmark::State& state, DepthCue cue) {
@@ -109,20 +104,12 @@ void rays_frame(benchmark::State& state, DepthCue cue) {
     return image;
   });
 }
-BENCHMARK_CAPTURE(rays_frame, max, kNone)
-    ->ArgName("lo")
-    ->Arg(400)
-    ->Arg(100)
-    ->Unit(benchmark::kMillisecond)
-    ->MeasureProcessCPUTime()
-    ->UseRealTime();
+BENCHMARK_CAPTURE(rays_frame, max, kNone)->ArgName("lo")->Arg(400)->Arg(100)->Apply(as_frames);
 BENCHMARK_CAPTURE(rays_frame, max_nearer, kNearer)
     ->ArgName("lo")
     ->Arg(400)
     ->Arg(100)
-    ->Unit(benchmark::kMillisecond)
-    ->MeasureProcessCPUTime()
-    ->UseRealTime();
+    ->Apply(as_frames);
 
 /// Ideal shells of the narrow window.
 void ideal_frame(benchmark::State& state, PictureMode mode) {
@@ -137,28 +124,17 @@ BENCHMARK_CAPTURE(ideal_frame, max, PictureMode::Max)
     ->ArgName("levels")
     ->Arg(24)
     ->Arg(200)
-    ->Unit(benchmark::kMillisecond)
-    ->MeasureProcessCPUTime()
-    ->UseRealTime();
+    ->Apply(as_frames);
 BENCHMARK_CAPTURE(ideal_frame, sum, PictureMode::Sum)
     ->ArgName("levels")
     ->Arg(24)
     ->Arg(200)
-    ->Unit(benchmark::kMillisecond)
-    ->MeasureProcessCPUTime()
-    ->UseRealTime();
+    ->Apply(as_frames);
 BENCHMARK_CAPTURE(ideal_frame, count, PictureMode::Count)
     ->ArgName("levels")
     ->Arg(24)
-    ->Unit(benchmark::kMillisecond)
-    ->MeasureProcessCPUTime()
-    ->UseRealTime();
-BENCHMARK_CAPTURE(ideal_frame, iso, PictureMode::Iso)
-    ->ArgName("levels")
-    ->Arg(1)
-    ->Unit(benchmark::kMillisecond)
-    ->MeasureProcessCPUTime()
-    ->UseRealTime();
+    ->Apply(as_frames);
+BENCHMARK_CAPTURE(ideal_frame, iso, PictureMode::Iso)->ArgName("levels")->Arg(1)->Apply(as_frames);
 
 void exact_walk_setup(benchmark::State& state) {
   const EmissionMap emission = window_of(state);

@@ -32,3 +32,13 @@ function(nacre_library name)
   install(TARGETS nacre_${name} EXPORT nacre_targets
     FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/nacre)
 endfunction()
+
+# nacre_knows_kernels(<name>)
+#
+# Tells a folder's library which kernels are compiled beside those for what every processor has:
+# NACRE_KERNEL_AVX2 (see core/instruction_set.h).
+function(nacre_knows_kernels name)
+  if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64" AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    target_compile_definitions(nacre_${name} PRIVATE NACRE_KERNEL_AVX2)
+  endif()
+endfunction()

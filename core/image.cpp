@@ -1,5 +1,7 @@
 #include "core/image.h"
 
+#include <algorithm>
+
 namespace nacre {
 
 Image make_image(int width, int height) {
@@ -18,6 +20,14 @@ ToolLayer make_tool_layer(int width, int height) {
   layer.colors.assign(pixels, glm::vec3(0.0f));
   layer.covered.assign(pixels, 0);
   return layer;
+}
+
+bool any_seen(const ToolLayer& tools) {
+  return std::find(tools.covered.begin(), tools.covered.end(), 1) != tools.covered.end();
+}
+
+void drop_unseen_tools(Picture& picture) {
+  if (picture.tools && !any_seen(*picture.tools)) picture.tools.reset();
 }
 
 }  // namespace nacre

@@ -50,6 +50,12 @@ struct Picture {
   std::optional<ToolLayer> tools;  ///< none where no tool is seen
 };
 
+/// Whether a tool is seen in any pixel.
+bool any_seen(const ToolLayer& tools);
+
+/// Leaves out a layer in which no tool is seen.
+void drop_unseen_tools(Picture& picture);
+
 /// A picture for the eye: one (gray) or three (RGB, interleaved) channels of 0 to 65535.
 struct DisplayImage {
   int width = 0;

@@ -10,16 +10,9 @@ namespace cells_avx2 {
 CellKernel cell_kernel() noexcept;
 }  // namespace cells_avx2
 
-CellKernelSet best_cell_kernel_set() noexcept {
+CellKernel cell_kernel_for([[maybe_unused]] InstructionSet set) noexcept {
 #ifdef NACRE_KERNEL_AVX2
-  if (__builtin_cpu_supports("avx2")) return CellKernelSet::Avx2;
-#endif
-  return CellKernelSet::Baseline;
-}
-
-CellKernel cell_kernel_for([[maybe_unused]] CellKernelSet set) noexcept {
-#ifdef NACRE_KERNEL_AVX2
-  if (set == CellKernelSet::Avx2) return cells_avx2::cell_kernel();
+  if (set == InstructionSet::Avx2) return cells_avx2::cell_kernel();
 #endif
   return cells_baseline::cell_kernel();
 }

@@ -2,6 +2,8 @@
 
 #include <cstddef>
 
+#include "core/instruction_set.h"
+
 // The inner loop of the exact maximum by cells, compiled once for each instruction set. Plain data
 // only: an inline function shared with other sources could be taken from the wrong one.
 
@@ -96,17 +98,8 @@ struct CellKernel {
   VisitParts visit_parts;
 };
 
-/// Instruction sets with a kernel of their own. All kernels give the same, to the last bit.
-enum class CellKernelSet {
-  Baseline,  ///< what all processors of the architecture have
-  Avx2,
-};
-
-/// The best set that this processor has.
-CellKernelSet best_cell_kernel_set() noexcept;
-
 /// @pre the processor has the set
-CellKernel cell_kernel_for(CellKernelSet set) noexcept;
+CellKernel cell_kernel_for(InstructionSet set) noexcept;
 
 /// `maximum` of a cubic, for the kernels.
 double maximum_of(const CellPart& part) noexcept;

@@ -194,7 +194,8 @@ void visit_each(const LaneRays& rays, const BrickSamples& brick, const BrickCell
         const Doubles beta = greatest(at + rise * passage.t_enter, at + rise * passage.t_exit);
         const Doubles value = greatest(greatest(f.b[0], f.b[1]), greatest(f.b[2], f.b[3]));
         const Doubles reach = beta * (bound.at_0 + bound.slope * value);
-        unsigned left = bits(mask & (reach > load(rays.best + i)));
+        // A bound that is no number rejects nothing.
+        unsigned left = bits(mask & ~(reach <= load(rays.best + i)));
         for (; left != 0; left &= left - 1) {
           const int lane = __builtin_ctz(left);
           visitor.visit(visitor.context, i + static_cast<std::size_t>(lane),

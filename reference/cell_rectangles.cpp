@@ -48,8 +48,8 @@ CellRectangles::CellRectangles(const WalkField& field, const Camera& camera)
   }
 }
 
-PixelRectangle CellRectangles::of(const glm::ivec3& first_cell, int side,
-                                  const PixelRectangle& frame) const {
+PixelRange CellRectangles::of(const glm::ivec3& first_cell, int side,
+                              const PixelRange& frame) const {
   const glm::dvec3 center = glm::dvec3(first_cell) + 0.5 * side;
   const auto bounds = [&](const Affine& f) {
     const double value = f(center);

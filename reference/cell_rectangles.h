@@ -7,24 +7,10 @@
 
 #include "core/camera.h"
 #include "reference/bright_bricks.h"
+#include "reference/pixel_range.h"
 #include "reference/walk_field.h"
 
 namespace nacre {
-
-/// Pixels x0 <= x < x1, y0 <= y < y1; none unless both are so.
-struct PixelRectangle {
-  int x0 = 0;
-  int y0 = 0;
-  int x1 = 0;
-  int y1 = 0;
-
-  bool empty() const { return x0 >= x1 || y0 >= y1; }
-};
-
-inline PixelRectangle intersection(const PixelRectangle& a, const PixelRectangle& b) {
-  return {a.x0 > b.x0 ? a.x0 : b.x0, a.y0 > b.y0 ? a.y0 : b.y0, a.x1 < b.x1 ? a.x1 : b.x1,
-          a.y1 < b.y1 ? a.y1 : b.y1};
-}
 
 /// Where cubes of cells lie in the picture of a camera.
 ///
@@ -40,11 +26,10 @@ class CellRectangles {
   ///
   /// @param first_cell  the cube's lower corner
   /// @param side        cells along its edge
-  PixelRectangle of(const glm::ivec3& first_cell, int side, const PixelRectangle& frame) const;
+  PixelRange of(const glm::ivec3& first_cell, int side, const PixelRange& frame) const;
 
   /// The pixels that cell `index` (x + 4 y + 16 z) of the brick may cover: as `of` with side 1.
-  PixelRectangle of_cell(const glm::ivec3& first_cell, int index,
-                         const PixelRectangle& frame) const {
+  PixelRange of_cell(const glm::ivec3& first_cell, int index, const PixelRange& frame) const {
     if (perspective_) {
       return of(first_cell + glm::ivec3(index & 3, (index >> 2) & 3, index >> 4), 1, frame);
     }
@@ -69,18 +54,19 @@ class CellRectangles {
                        double scale);
 
   /// Pixels of `frame` with their centres within a box about (x, y), or a hair outside.
-  static PixelRectangle around(double x, double y, double half_x, double half_y,
-                               const PixelRectangle& frame) {
+  static PixelRange around(double x, double y, double half_x, double half_y,
+                           const PixelRange& frame) {
     constexpr double kHair = 1e-6;  // pixels: far above the rounding of 1e5 of them
     // A cast rounds towards zero: what is below it lies before the frame in any case.
-    const auto first = [](double least, int from, int to) {
-      return static_cast<int>(std::clamp<double>(least + (0.5 - kHair), from, to));
+    const auto pixel = [](double p, int from, int to) {
+      return static_cast<int>(std::clamp<double>(p, from, to));
     };
-    const auto end = [](double greatest, int from, int to) {
-      return static_cast<int>(std::clamp<double>(greatest + (0.5 + kHair), from, to));
-    };
-    return {first(x - half_x, frame.x0, frame.x1), first(y - half_y, frame.y0, frame.y1),
-            end(x + half_x, frame.x0, frame.x1), end(y + half_y, frame.y0, frame.y1)};
+    const glm::ivec2& from = frame.first;
+    const glm::ivec2 end = frame.last + 1;
+    return {{pixel(x - half_x + (0.5 - kHair), from.x, end.x),
+             pixel(y - half_y + (0.5 - kHair), from.y, end.y)},
+            {pixel(x + half_x + (0.5 + kHair), from.x, end.x) - 1,
+             pixel(y + half_y + (0.5 + kHair), from.y, end.y) - 1}};
   }
 
   glm::dvec2 center_px_;

@@ -36,21 +36,11 @@ double pixel_value(const RayValue& value, const Camera& camera, const ExactPictu
   return value(ray, interval);
 }
 
-void drop_unseen_tools(Picture& picture) {
-  const auto seen = [](const ToolLayer& layer) {
-    return std::any_of(layer.covered.begin(), layer.covered.end(), [](auto c) { return c != 0; });
-  };
-  if (picture.tools && !seen(*picture.tools)) picture.tools.reset();
-}
-
 /// One ray a pixel, on all cores.
 Picture picture_of(const RayValue& value, const Camera& camera, const ExactPictureOptions& options,
                    const ProgressCallback& progress) {
   const auto [width, height] = std::pair(camera.size.x, camera.size.y);
-  Picture picture{make_image(width, height), std::nullopt};
-  if (options.tools != nullptr && !options.tools->empty()) {
-    picture.tools = make_tool_layer(width, height);
-  }
+  Picture picture = make_picture(camera, options.tools);
   ProgressMeter meter(progress, "rays", picture.volume.pixels.size());
   // Square tiles: neighbouring rays share cells. Each pixel is computed alone, so the order and the
   // number of threads cannot show.
@@ -109,11 +99,8 @@ Picture emission_picture(const Walk& walk, const Camera& camera, const ExactPict
 
 Picture max_picture(const ExactWalk& walk, const Camera& camera, const ExactPictureOptions& options,
                     const ProgressCallback& progress) {
-  Picture picture =
-      max_picture_by_cells({&walk.field(), &walk.bright_bricks(), &walk.cued_emission()}, camera,
-                           options.cue, options.slab, options.tools, progress);
-  drop_unseen_tools(picture);
-  return picture;
+  return max_picture_by_cells({&walk.field(), &walk.bright_bricks(), &walk.cued_emission()}, camera,
+                              options.cue, options.slab, options.tools, progress);
 }
 
 bool shows_crossings(PictureMode mode) {

@@ -32,6 +32,12 @@ inline LineInterval clip_axis(const CellLine& line, int axis, double end, LineIn
           std::min(interval.t_exit, std::max(t0, t1))};
 }
 
+/// A line that is no steeper than this along an axis runs along the planes across it.
+/// @param steepness  of the line along each axis
+inline double slope_along_planes(const glm::dvec3& steepness) {
+  return 1e-10 * std::max({steepness.x, steepness.y, steepness.z});
+}
+
 /// The part of the interval that lies inside the grid [0, cells], borders included.
 ///
 /// A line in a border plane counts as inside, so that a ray that grazes the volume sees its face.
@@ -39,10 +45,9 @@ inline LineInterval clip_axis(const CellLine& line, int axis, double end, LineIn
 /// into it; any other line is clipped exactly.
 inline std::optional<LineInterval> clip_to_grid(CellLine& line, const glm::i64vec3& cells,
                                                 LineInterval interval) {
-  constexpr double kAlong = 1e-10;  // slope against the steepest axis
-  constexpr double kHair = 1e-11;   // cells: the rounding of positions some 1e4 cells away
+  constexpr double kHair = 1e-11;  // cells: the rounding of positions some 1e4 cells away
   const glm::dvec3 steepness = glm::abs(line.direction);
-  const double along = kAlong * std::max({steepness.x, steepness.y, steepness.z});
+  const double along = slope_along_planes(steepness);
   for (int axis = 0; axis < 3; ++axis) {
     if (steepness[axis] > along) {
       interval = clip_axis(line, axis, static_cast<double>(cells[axis]), interval);

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "reference/brick_samples.h"
+#include "reference/cell_rectangles.h"
 #include "reference/tile_lists.h"
 #include "reference/tile_rays.h"
 
@@ -76,13 +77,16 @@ class PlainMaximum {
   double factor_;
 };
 
-/// The least line from the first knot that the map stays below.
+/// The least line from the first knot that the map stays below. Not a number where it is too steep
+/// for one.
 EmissionBound bound_of(const EmissionMap& map) {
   constexpr double kSafely = 1e-9;
   const EmissionKnot& first = map.knots().front();
   double slope = 0.0;
   for (const EmissionKnot& knot : map.knots().subspan(1)) {
-    slope = std::max(slope, (knot.emission - first.emission) / (knot.value - first.value));
+    // Halves, since a difference of values may overflow.
+    slope = std::max(
+        slope, 0.5 * (knot.emission - first.emission) / (0.5 * knot.value - 0.5 * first.value));
   }
   const double at_0 = first.emission - slope * first.value;
   return {at_0 + kSafely * (1.0 + std::abs(at_0)), slope};
@@ -155,7 +159,7 @@ struct Frame {
   CueField cue_field;
   PixelLines lines;
   CellRectangles rectangles;
-  std::vector<PixelRectangle> of_brick;  ///< of each bright brick
+  std::vector<PixelRange> of_brick;  ///< of each bright brick
   TileLists lists;
 };
 
@@ -174,15 +178,16 @@ struct Workplace {
   std::vector<Item> items;
 };
 
-PixelRectangle tile_rectangle(const TileLists& lists, std::size_t tile, const glm::ivec2& size) {
+PixelRange tile_rectangle(const TileLists& lists, std::size_t tile, const glm::ivec2& size) {
   const auto across = static_cast<std::size_t>(lists.tiles.x);
   const int x = static_cast<int>(tile % across) * TileRays::kSide;
   const int y = static_cast<int>(tile / across) * TileRays::kSide;
-  return {x, y, std::min(x + TileRays::kSide, size.x), std::min(y + TileRays::kSide, size.y)};
+  const glm::ivec2 first(x, y);
+  return {first, glm::min(first + TileRays::kSide, size) - 1};
 }
 
-PixelRectangle within(const PixelRectangle& tile, const PixelRectangle& r) {
-  return {r.x0 - tile.x0, r.y0 - tile.y0, r.x1 - tile.x0, r.y1 - tile.y0};
+PixelRange within(const PixelRange& tile, const PixelRange& r) {
+  return {r.first - tile.first, r.last - tile.first};
 }
 
 /// The tile's bricks with what they can reach, the brightest first.
@@ -192,7 +197,7 @@ void list_items(const Frame& frame, std::size_t tile, Workplace<Maximum>& work) 
   for (const std::uint32_t i : frame.lists.of(tile)) {
     work.items.push_back({work.maximum.upper(frame.scene.bright->bricks[i]), i});
   }
-  if (!Maximum::kOrdered) {
+  if constexpr (!Maximum::kOrdered) {
     std::stable_sort(work.items.begin(), work.items.end(),
                      [](const auto& a, const auto& b) { return a.upper > b.upper; });
   }
@@ -200,11 +205,11 @@ void list_items(const Frame& frame, std::size_t tile, Workplace<Maximum>& work) 
 
 /// Sets up the rays of a tile. Tools are put into the picture on the way.
 template <class Maximum>
-void start_rays(const Frame& frame, const PixelRectangle& tile, Workplace<Maximum>& work,
+void start_rays(const Frame& frame, const PixelRange& tile, Workplace<Maximum>& work,
                 Picture& picture) {
   work.rays.clear();
-  for (int y = tile.y0; y < tile.y1; ++y) {
-    for (int x = tile.x0; x < tile.x1; ++x) {
+  for (int y = tile.first.y; y <= tile.last.y; ++y) {
+    for (int x = tile.first.x; x <= tile.last.x; ++x) {
       double t_tool = std::numeric_limits<double>::infinity();
       if (picture.tools) {
         const Ray ray = picture_ray(frame.camera, x + 0.5, y + 0.5);
@@ -215,8 +220,9 @@ void start_rays(const Frame& frame, const PixelRectangle& tile, Workplace<Maximu
       if (!line) continue;
       line->visible.t_exit = std::min(line->visible.t_exit, t_tool - line->t_shift_mm);
       if (!(line->visible.t_enter < line->visible.t_exit)) continue;
-      const std::size_t ray = TileRays::index(x - tile.x0, y - tile.y0);
-      work.rays.put(x - tile.x0, y - tile.y0, *line, work.maximum.start(ray, *line, work.rays));
+      const glm::ivec2 place = glm::ivec2(x, y) - tile.first;
+      const std::size_t ray = TileRays::index(place.x, place.y);
+      work.rays.put(place.x, place.y, *line, work.maximum.start(ray, *line, work.rays));
     }
   }
 }
@@ -224,8 +230,8 @@ void start_rays(const Frame& frame, const PixelRectangle& tile, Workplace<Maximu
 /// @param rectangle  the brick's, within the tile
 /// @param floor      the least of what is seen there
 template <class Maximum>
-void draw_brick(const Frame& frame, const BrightBrick& brick, const PixelRectangle& tile,
-                const PixelRectangle& rectangle, double floor, const LaneRays& lanes,
+void draw_brick(const Frame& frame, const BrightBrick& brick, const PixelRange& tile,
+                const PixelRange& rectangle, double floor, const LaneRays& lanes,
                 Workplace<Maximum>& work) {
   load_samples(*frame.scene.field, brick.first_cell, work.samples);
   std::array<double, static_cast<std::size_t>(kBrick * kBrick * kBrick)> greatest;
@@ -234,20 +240,21 @@ void draw_brick(const Frame& frame, const BrightBrick& brick, const PixelRectang
   cells &= cells_within(glm::ivec3(frame.scene.field->cells) - brick.first_cell);
   for (; cells != 0; cells &= cells - 1) {
     const int cell = std::countr_zero(cells);
-    const PixelRectangle pixels =
+    const PixelRange pixels =
         within(tile, frame.rectangles.of_cell(brick.first_cell, cell, rectangle));
     if (pixels.empty()) continue;
     const double upper = work.maximum.upper_of_cell(greatest[static_cast<std::size_t>(cell)]);
     work.maximum.raise(work.rays, lanes, work.samples,
                        {cell % kBrick, cell / kBrick % kBrick, cell / kBrick / kBrick, upper},
-                       {pixels.x0, pixels.y0, pixels.x1, pixels.y1});
+                       {pixels.first.x, pixels.first.y, pixels.last.x + 1, pixels.last.y + 1});
   }
 }
 
 template <class Maximum>
 void draw_tile(const Frame& frame, std::size_t tile, Workplace<Maximum>& work, Picture& picture) {
-  const PixelRectangle pixels = tile_rectangle(frame.lists, tile, frame.camera.size);
+  const PixelRange pixels = tile_rectangle(frame.lists, tile, frame.camera.size);
   list_items(frame, tile, work);
+  if (work.items.empty() && !frame.lines.shows_always() && !picture.tools) return;
   start_rays(frame, pixels, work, picture);
   const LaneRays lanes = work.rays.lanes();
   constexpr std::size_t kBetweenLooks = 16;
@@ -255,14 +262,14 @@ void draw_tile(const Frame& frame, std::size_t tile, Workplace<Maximum>& work, P
     const double upper = work.items[i].upper;
     if (i % kBetweenLooks == 0 && !(upper > work.rays.least_best(within(pixels, pixels)))) break;
     const BrightBrick& bright = frame.scene.bright->bricks[work.items[i].brick];
-    const PixelRectangle rectangle = intersection(frame.of_brick[work.items[i].brick], pixels);
+    const PixelRange rectangle = intersection(frame.of_brick[work.items[i].brick], pixels);
     const double floor = work.rays.least_best(within(pixels, rectangle));
     if (!(upper > floor)) continue;
     draw_brick(frame, bright, pixels, rectangle, floor, lanes, work);
   }
-  for (int y = pixels.y0; y < pixels.y1; ++y) {
-    for (int x = pixels.x0; x < pixels.x1; ++x) {
-      const double best = work.rays.best(x - pixels.x0, y - pixels.y0);
+  for (int y = pixels.first.y; y <= pixels.last.y; ++y) {
+    for (int x = pixels.first.x; x <= pixels.last.x; ++x) {
+      const double best = work.rays.best(x - pixels.first.x, y - pixels.first.y);
       if (std::isfinite(best)) {
         picture.volume.at(x, y) = static_cast<float>(work.maximum.shown(best));
       }
@@ -288,13 +295,12 @@ void draw_tiles(const Frame& frame, Picture& picture, const ProgressCallback& pr
       tbb::simple_partitioner());
 }
 
-std::vector<PixelRectangle> rectangles_of(const BrightBricks& bright,
-                                          const CellRectangles& rectangles,
-                                          const glm::ivec2& size) {
-  std::vector<PixelRectangle> result(bright.bricks.size());
+std::vector<PixelRange> rectangles_of(const BrightBricks& bright, const CellRectangles& rectangles,
+                                      const glm::ivec2& size) {
+  std::vector<PixelRange> result(bright.bricks.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, result.size()), [&](const auto& range) {
     for (std::size_t i = range.begin(); i != range.end(); ++i) {
-      result[i] = rectangles.of(bright.bricks[i].first_cell, kBrick, {0, 0, size.x, size.y});
+      result[i] = rectangles.of(bright.bricks[i].first_cell, kBrick, {{0, 0}, size - 1});
     }
   });
   return result;
@@ -306,7 +312,7 @@ Picture max_picture_by_cells(const MaxByCells& scene, const Camera& camera, cons
                              const Slab& slab, const ToolRays* tools,
                              const ProgressCallback& progress) {
   const CellRectangles rectangles(*scene.field, camera);
-  std::vector<PixelRectangle> of_brick = rectangles_of(*scene.bright, rectangles, camera.size);
+  std::vector<PixelRange> of_brick = rectangles_of(*scene.bright, rectangles, camera.size);
   TileLists lists = make_tile_lists(of_brick, camera.size, TileRays::kSide);
   const Frame frame{scene,
                     camera,
@@ -317,15 +323,13 @@ Picture max_picture_by_cells(const MaxByCells& scene, const Camera& camera, cons
                     rectangles,
                     std::move(of_brick),
                     std::move(lists)};
-  Picture picture{make_image(camera.size.x, camera.size.y), std::nullopt};
-  if (tools != nullptr && !tools->empty()) {
-    picture.tools = make_tool_layer(camera.size.x, camera.size.y);
-  }
+  Picture picture = make_picture(camera, tools);
   if (is_flat(frame.cue_field)) {
     draw_tiles<PlainMaximum>(frame, picture, progress);
   } else {
     draw_tiles<CuedMaximum>(frame, picture, progress);
   }
+  drop_unseen_tools(picture);
   return picture;
 }
 

@@ -16,7 +16,7 @@ struct MaxByCells {
   const WalkField* field;
   const BrightBricks* bright;  ///< of the field
   const CuedEmission* emission;
-  CellKernel kernel = cell_kernel_for(best_cell_kernel_set());
+  CellKernel kernel = cell_kernel_for(best_instruction_set());
 };
 
 /// max { beta(p) T(value) } along the ray of each pixel, exactly as `ExactWalk::max_emission`, but

@@ -5,16 +5,9 @@
 #include <glm/vec3.hpp>
 
 #include "core/camera.h"
+#include "reference/pixel_range.h"
 
 namespace nacre {
-
-/// Pixels first.x <= x <= last.x and first.y <= y <= last.y; none if first exceeds last somewhere.
-struct PixelRange {
-  glm::ivec2 first{0};
-  glm::ivec2 last{-1};
-
-  bool empty() const { return first.x > last.x || first.y > last.y; }
-};
 
 /// Which pixels' rays may meet a triangle in front of the eye: a rectangle around its projection,
 /// widened by more than rounding moves it. What it leaves out no ray of this picture meets.

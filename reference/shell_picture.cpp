@@ -87,10 +87,7 @@ class ShellPainter {
   }
 
   Picture paint(const ProgressCallback& progress) {
-    Picture picture{make_image(camera_.size.x, camera_.size.y), std::nullopt};
-    if (options_.tools != nullptr && !options_.tools->empty()) {
-      picture.tools = make_tool_layer(camera_.size.x, camera_.size.y);
-    }
+    Picture picture = make_picture(camera_, options_.tools);
     const auto rows = static_cast<int>(std::max<std::int64_t>(1, kPixelsAtOnce / camera_.size.x));
     const int strips = (camera_.size.y + rows - 1) / rows;
     ProgressMeter meter(
@@ -99,15 +96,11 @@ class ShellPainter {
     for (int first = 0; first < camera_.size.y; first += rows) {
       paint_rows(first, std::min(first + rows, camera_.size.y), picture, meter);
     }
-    if (picture.tools && !is_seen(*picture.tools)) picture.tools.reset();
+    drop_unseen_tools(picture);
     return picture;
   }
 
  private:
-  static bool is_seen(const ToolLayer& tools) {
-    return std::ranges::any_of(tools.covered, [](std::uint8_t covered) { return covered != 0; });
-  }
-
   void paint_rows(int first, int end, Picture& picture, ProgressMeter& meter) {
     first_row_ = first;
     end_row_ = end;

@@ -24,10 +24,10 @@ struct Chunks {
 };
 
 template <class OnTile>
-void for_tiles(const PixelRectangle& rectangle, int side, int across, const OnTile& on_tile) {
+void for_tiles(const PixelRange& rectangle, int side, int across, const OnTile& on_tile) {
   if (rectangle.empty()) return;
-  for (int y = rectangle.y0 / side; y <= (rectangle.y1 - 1) / side; ++y) {
-    for (int x = rectangle.x0 / side; x <= (rectangle.x1 - 1) / side; ++x) {
+  for (int y = rectangle.first.y / side; y <= rectangle.last.y / side; ++y) {
+    for (int x = rectangle.first.x / side; x <= rectangle.last.x / side; ++x) {
       on_tile(static_cast<std::size_t>(y) * static_cast<std::size_t>(across) +
               static_cast<std::size_t>(x));
     }
@@ -46,7 +46,7 @@ void for_things(const Chunks& chunks, const OnThing& on_thing) {
 
 }  // namespace
 
-TileLists make_tile_lists(std::span<const PixelRectangle> rectangles, const glm::ivec2& size,
+TileLists make_tile_lists(std::span<const PixelRange> rectangles, const glm::ivec2& size,
                           int side) {
   TileLists lists;
   lists.tiles = (size + (side - 1)) / side;

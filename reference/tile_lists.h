@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "reference/cell_rectangles.h"
+#include "reference/pixel_range.h"
 
 namespace nacre {
 
@@ -26,7 +26,6 @@ struct TileLists {
 ///
 /// @param rectangles  in pixels, within the picture; empty ones are nowhere. Below 2^32 of them
 /// @param side        of a tile, pixels
-TileLists make_tile_lists(std::span<const PixelRectangle> rectangles, const glm::ivec2& size,
-                          int side);
+TileLists make_tile_lists(std::span<const PixelRange> rectangles, const glm::ivec2& size, int side);
 
 }  // namespace nacre

@@ -46,9 +46,8 @@ std::optional<PixelLine> PixelLines::at(int x, int y) const {
   } else {
     ray.line.origin += (x + 0.5) * right_ + (y + 0.5) * down_;
   }
-  constexpr double kAlong = 1e-10;  // as clip_to_grid
   const glm::dvec3 steepness = glm::abs(ray.line.direction);
-  const double along = kAlong * std::max({steepness.x, steepness.y, steepness.z});
+  const double along = slope_along_planes(steepness);
   for (int axis = 0; axis < 3; ++axis) {
     if (steepness[axis] > along) continue;
     // Well inside, a ray along an axis is a ray as any other.
@@ -63,9 +62,6 @@ std::optional<PixelLine> PixelLines::at(int x, int y) const {
 TileRays::TileRays() : figures_(kColumns * kRays) {}
 
 void TileRays::clear() {
-  std::fill(figures_.begin(), figures_.end(), 0.0);
-  // Ends before it begins.
-  std::fill(column(kBegin), column(kBegin) + kRays, 1.0);
   std::fill(column(kBest), column(kBest) + kRays, std::numeric_limits<double>::infinity());
   any_slack_ = false;
 }
@@ -99,11 +95,12 @@ LaneRays TileRays::lanes() {
           column(kEnd), column(kBest), column(kBetaAt), column(kBetaRise), kStride};
 }
 
-double TileRays::least_best(const PixelRectangle& rectangle) const {
+double TileRays::least_best(const PixelRange& rectangle) const {
   double least = std::numeric_limits<double>::infinity();
-  for (int y = rectangle.y0; y < rectangle.y1; ++y) {
+  for (int y = rectangle.first.y; y <= rectangle.last.y; ++y) {
     const double* row = column(kBest) + index(0, y);
-    for (int x = rectangle.x0; x < rectangle.x1; ++x) least = row[x] < least ? row[x] : least;
+    for (int x = rectangle.first.x; x <= rectangle.last.x; ++x)
+      least = row[x] < least ? row[x] : least;
   }
   return least;
 }

@@ -8,7 +8,7 @@
 #include "core/camera.h"
 #include "core/picture.h"
 #include "reference/cell_kernel.h"
-#include "reference/cell_rectangles.h"
+#include "reference/pixel_range.h"
 #include "reference/walk_field.h"
 
 namespace nacre {
@@ -56,7 +56,7 @@ class TileRays {
 
   TileRays();
 
-  /// All rays of a tile to nothing: no ray, best = infinity.
+  /// No rays: what was put is hidden by best = infinity.
   void clear();
 
   /// @param x, y  within the tile
@@ -79,7 +79,7 @@ class TileRays {
   double best(int x, int y) const { return column(kBest)[index(x, y)]; }
 
   /// The least `best` within a rectangle of the tile.
-  double least_best(const PixelRectangle& rectangle) const;
+  double least_best(const PixelRange& rectangle) const;
 
  private:
   enum Column {

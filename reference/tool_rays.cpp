@@ -56,6 +56,14 @@ glm::vec3 lit_tool(const ToolRays& tools, const Camera& camera, const DepthCue& 
   return {glm::dvec3(tools.color(hit.tool)) * (light * beta(cue, std::clamp(z, 0.0, 1.0)))};
 }
 
+Picture make_picture(const Camera& camera, const ToolRays* tools) {
+  Picture picture{make_image(camera.size.x, camera.size.y), std::nullopt};
+  if (tools != nullptr && !tools->empty()) {
+    picture.tools = make_tool_layer(camera.size.x, camera.size.y);
+  }
+  return picture;
+}
+
 double draw_tool_pixel(const ToolRays& tools, const Camera& camera, const DepthCue& cue,
                        const Ray& ray, int x, int y, ToolLayer& layer) {
   const auto hit = tools.nearest(ray, visible_interval(camera, ray, {}));

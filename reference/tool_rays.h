@@ -51,6 +51,10 @@ class ToolRays {
 glm::vec3 lit_tool(const ToolRays& tools, const Camera& camera, const DepthCue& cue, const Ray& ray,
                    const ToolHit& hit);
 
+/// A black picture of the camera's size, with a layer for tools where there are any.
+/// @param tools  null: none
+Picture make_picture(const Camera& camera, const ToolRays* tools);
+
 /// Looks for tools along a pixel's ray, and puts the nearest into the layer's pixel. Slabs do not
 /// cut tools: all of the ray in front of the eye counts.
 ///

@@ -25,9 +25,7 @@ void check(const DisplayWindow& window) {
 }
 
 bool shows_tools(const Picture& picture) {
-  return picture.tools.has_value() &&
-         std::find(picture.tools->covered.begin(), picture.tools->covered.end(), 1) !=
-             picture.tools->covered.end();
+  return picture.tools.has_value() && any_seen(*picture.tools);
 }
 
 /// Light upon light, or the brighter of both.

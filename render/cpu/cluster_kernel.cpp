@@ -12,13 +12,6 @@ DrawClusters<std::uint16_t> draw_clusters_16() noexcept;
 DrawClusters<float> draw_clusters_cued() noexcept;
 }  // namespace kernel_avx2
 
-InstructionSet best_instruction_set() noexcept {
-#ifdef NACRE_KERNEL_AVX2
-  if (__builtin_cpu_supports("avx2")) return InstructionSet::Avx2;
-#endif
-  return InstructionSet::Baseline;
-}
-
 template <>
 DrawClusters<std::uint8_t> draw_clusters_for([[maybe_unused]] InstructionSet set) noexcept {
 #ifdef NACRE_KERNEL_AVX2

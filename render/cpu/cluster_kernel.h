@@ -6,6 +6,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include "core/instruction_set.h"
 #include "render/cpu/mesh_clusters.h"
 #include "render/plan.h"
 
@@ -85,12 +86,6 @@ template <class Pixel>
 using DrawClusters = KernelResult (*)(const ClusterDraw<Pixel>& draw,
                                       const ClusterProjection& projection,
                                       const PixelTarget<Pixel>& target, std::uint32_t* too_large);
-
-/// Instruction sets a kernel is compiled for; all draw the same pixels.
-enum class InstructionSet { Baseline, Avx2 };
-
-/// The best set that the processor has.
-InstructionSet best_instruction_set() noexcept;
 
 /// The kernel for a set.
 /// @pre  the processor has it

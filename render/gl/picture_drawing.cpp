@@ -61,10 +61,6 @@ void copy_tools(std::span<const glm::vec4> layer, const PixelRect& rect, ToolLay
   }
 }
 
-bool any_seen(const ToolLayer& tools) {
-  return std::find(tools.covered.begin(), tools.covered.end(), 1) != tools.covered.end();
-}
-
 }  // namespace
 
 PictureDrawing::PictureDrawing(const GlFunctions& gl)
@@ -81,7 +77,7 @@ Picture PictureDrawing::draw(const Camera& camera, const Plan& plan, const Scene
   }
   for (const PixelRect& rect : plan.tiles) draw_tile(camera, plan, scene, rect, picture);
   check_gl(*gl_, "drawing");
-  if (picture.tools && !any_seen(*picture.tools)) picture.tools.reset();
+  drop_unseen_tools(picture);
   return picture;
 }
 

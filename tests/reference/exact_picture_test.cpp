@@ -16,16 +16,13 @@
 namespace nacre {
 namespace {
 
+using testing::camera_of;
 using testing::FineMarch;
 using testing::random_volume;
 using testing::volume_of;
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 const EmissionMap kUnit = EmissionMap::window(0.0, 1.0);
-
-Camera camera_of(const Volume& volume, CameraOptions options) {
-  return make_camera(options, bounding_sphere(volume.dims, volume.world_from_voxel));
-}
 
 TEST(ExactPicture, NamedViewsPlaceAMarkedVoxelWhereThePatientHasIt) {
   // Bright at the patient's left, front and top: voxel axes are L, P, S here.

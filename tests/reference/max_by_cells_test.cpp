@@ -19,6 +19,7 @@
 namespace nacre {
 namespace {
 
+using testing::camera_of;
 using testing::random_volume;
 using testing::volume_of;
 
@@ -29,10 +30,6 @@ constexpr int kSide = 33;
 #endif
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-
-Camera camera_of(const Volume& volume, const CameraOptions& options) {
-  return make_camera(options, bounding_sphere(volume.dims, volume.world_from_voxel));
-}
 
 /// From outside and inside, along axes and askew, near and far.
 std::vector<CameraOptions> cameras() {
@@ -149,6 +146,25 @@ TEST(MaxByCells, HoldsExtremeSamples) {
   }
 }
 
+TEST(MaxByCells, HoldsWindowsWhoseWidthOrSlopeOverflows) {
+  const auto pattern = [](auto x, auto y, auto z) {
+    return 0.1 + 0.03 * static_cast<double>((x * 7 + y * 5 + z * 3) % 29);
+  };
+  struct Case {
+    double scale;
+    EmissionMap map;
+  };
+  for (const auto& [scale, map] : {Case{1e308, EmissionMap::window(-1.5e308, 1.5e308)},
+                                   Case{1e-310, EmissionMap::window(5e-311, 9e-311)}}) {
+    const Volume volume = volume_of<double>(
+        {9, 9, 9}, [&](auto x, auto y, auto z) { return scale * pattern(x, y, z); });
+    for (const CameraOptions& camera : cameras()) {
+      const Difference difference = against_the_walk(volume, map, camera, {0.7, 0.3, 0.0});
+      EXPECT_LE(difference.most, kUlp);
+    }
+  }
+}
+
 TEST(MaxByCells, StopsAtTools) {
   // A cube within the volume: of its pixels only what lies in front is shown.
   const Volume volume = random_volume<std::uint8_t>({16, 16, 16}, 0, 255);
@@ -178,7 +194,7 @@ TEST(MaxByCells, StopsAtTools) {
 }
 
 TEST(MaxByCells, EveryInstructionSetGivesTheSameBits) {
-  if (best_cell_kernel_set() == CellKernelSet::Baseline) {
+  if (best_instruction_set() == InstructionSet::Baseline) {
     GTEST_SKIP() << "this processor has the baseline's instructions only";
   }
   const Volume volume = random_volume<float>({20, 15, 18}, 0.0, 1.0);
@@ -187,7 +203,7 @@ TEST(MaxByCells, EveryInstructionSetGivesTheSameBits) {
     const Camera camera = camera_of(volume, options);
     for (const DepthCue& cue : {DepthCue{}, DepthCue{0.6, 0.4, 0.0}}) {
       std::vector<std::vector<float>> pixels;
-      for (const CellKernelSet set : {CellKernelSet::Baseline, CellKernelSet::Avx2}) {
+      for (const InstructionSet set : {InstructionSet::Baseline, InstructionSet::Avx2}) {
         const MaxByCells scene{&walk.field(), &walk.bright_bricks(), &walk.cued_emission(),
                                cell_kernel_for(set)};
         pixels.push_back(max_picture_by_cells(scene, camera, cue, {}, nullptr, {}).volume.pixels);
@@ -247,7 +263,7 @@ TEST(CellRectangles, HoldThePictureOfEachPointOfTheCell) {
   for (const CameraOptions& options : cameras()) {
     const Camera camera = camera_of(volume, options);
     const CellRectangles rectangles(walk.field(), camera);
-    const PixelRectangle frame{0, 0, camera.size.x, camera.size.y};
+    const PixelRange frame{{0, 0}, camera.size - 1};
     for (int n = 0; n < 2000; ++n) {
       const glm::ivec3 brick = 4 * glm::ivec3(at(random), at(random), at(random));
       const int index = n % 64;
@@ -265,17 +281,17 @@ TEST(CellRectangles, HoldThePictureOfEachPointOfTheCell) {
       // The pixel whose centre is nearest is covered where the point lies on the centre itself.
       const double x = 0.5 * camera.size.x + scale * glm::dot(from, camera.right);
       const double y = 0.5 * camera.size.y - scale * glm::dot(from, camera.up);
-      for (const PixelRectangle& r :
+      for (const PixelRange& r :
            {rectangles.of(cell, 1, frame), rectangles.of_cell(brick, index, frame),
             rectangles.of(brick, 4, frame)}) {
         // Centres less than the point's place from the edge are in: the edge is beyond the point.
         if (x > 0.5 && x < camera.size.x - 0.5) {
-          EXPECT_LE(r.x0 - 0.5, x);
-          EXPECT_GE(r.x1 + 0.5, x);
+          EXPECT_LE(r.first.x - 0.5, x);
+          EXPECT_GE(r.last.x + 1.5, x);
         }
         if (y > 0.5 && y < camera.size.y - 0.5) {
-          EXPECT_LE(r.y0 - 0.5, y);
-          EXPECT_GE(r.y1 + 0.5, y);
+          EXPECT_LE(r.first.y - 0.5, y);
+          EXPECT_GE(r.last.y + 1.5, y);
         }
       }
     }
@@ -286,18 +302,20 @@ TEST(TileLists, HoldEachThingWhereItIsInOrder) {
   std::mt19937 random(3);
   std::uniform_int_distribution<int> x(0, 99);
   std::uniform_int_distribution<int> y(0, 69);
-  std::vector<PixelRectangle> things;
+  std::vector<PixelRange> things;
   for (int i = 0; i < 3000; ++i) {
     const int x0 = x(random);
     const int y0 = y(random);
-    things.push_back({x0, y0, std::min(100, x0 + x(random) / 8), std::min(70, y0 + y(random) / 8)});
+    const int x1 = std::min(100, x0 + x(random) / 8);
+    const int y1 = std::min(70, y0 + y(random) / 8);
+    things.push_back({{x0, y0}, {x1 - 1, y1 - 1}});
   }
   const TileLists lists = make_tile_lists(things, {100, 70}, 32);
   ASSERT_EQ(lists.tiles, glm::ivec2(4, 3));
   for (int tile = 0; tile < 12; ++tile) {
     const int left = tile % 4 * 32;
     const int top = tile / 4 * 32;
-    const PixelRectangle area{left, top, left + 32, top + 32};
+    const PixelRange area{{left, top}, {left + 31, top + 31}};
     std::vector<std::uint32_t> expected;
     for (std::uint32_t i = 0; i < things.size(); ++i) {
       if (!things[i].empty() && !intersection(things[i], area).empty()) expected.push_back(i);

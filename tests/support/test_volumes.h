@@ -8,7 +8,9 @@
 #include <type_traits>
 #include <vector>
 
+#include "core/camera.h"
 #include "core/volume.h"
+#include "core/volume_geometry.h"
 
 namespace nacre::testing {
 
@@ -35,6 +37,11 @@ Volume random_volume(const glm::i64vec3& dims, double lo, double hi, unsigned se
     const double s = unit(random);
     return lo * (1.0 - s) + hi * s;  // hi - lo may overflow
   });
+}
+
+/// A camera on a volume.
+inline Camera camera_of(const Volume& volume, const CameraOptions& options) {
+  return make_camera(options, bounding_sphere(volume.dims, volume.world_from_voxel));
 }
 
 }  // namespace nacre::testing
