@@ -12,7 +12,10 @@ target_compile_options(nacre_defaults INTERFACE
 if(NACRE_SANITIZE)
   target_compile_options(nacre_defaults INTERFACE
     -fsanitize=${NACRE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
-  target_link_options(nacre_defaults INTERFACE -fsanitize=${NACRE_SANITIZE})
+  # The sanitizer opens modules in the program's place: they are found by its old-style run path
+  # alone, which holds for the libraries it loads too.
+  target_link_options(nacre_defaults INTERFACE
+    -fsanitize=${NACRE_SANITIZE} -Wl,--disable-new-dtags)
 endif()
 
 # nacre_library(<name> SOURCES ... HEADERS ... [LINK ...] [LINK_PRIVATE ...])
