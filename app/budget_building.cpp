@@ -87,9 +87,11 @@ class Trials {
 
   void keep() { best_ = std::move(at_hand_); }
 
-  /// The best set, said as any that is built.
+  /// The best set. How its levels were placed is said, as for any that is built; a coarse grid is
+  /// not warned of where it was the trade's choice.
   BuiltSet take(const BudgetCandidate& chosen, BuildFigures& figures) {
     placer_.place(flags_of(flags_, chosen), reporter_, figures.placement);
+    best_.report.is_grid_coarse = best_.report.is_grid_coarse && flags_.quantization > 0;
     return std::move(best_);
   }
 

@@ -13,7 +13,7 @@ namespace nacre {
 struct BudgetFlags {
   std::string budget;  ///< see `parse_budget`
   /// Of the pictures that errors are measured with, pixels.
-  glm::ivec2 picture_size{512, 512};
+  glm::ivec2 picture_size{256, 256};
   bool is_certified = true;  ///< whether the file will hold a certificate, which counts, too
 };
 

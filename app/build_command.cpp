@@ -24,6 +24,8 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr const char* kNoCertificate = "none";
+// Of the pictures a budget's sets are measured with where there is no certificate to agree with.
+constexpr glm::ivec2 kTradedSize{256, 256};
 
 struct BuildFlags {
   CommonFlags common;

@@ -82,17 +82,20 @@ void add_shells(const CompressedSet& built, const ProgressCallback& callback,
 }
 
 std::string longest_certificate(const glm::ivec2& size) {
-  // JSON's longest number of five digits: beyond, it has an exponent.
-  constexpr double kLong = -1.2345e14;
-  constexpr CertifiedError kError{kLong, kLong, kLong, kLong, kLong, kLong};
+  // JSON's longest numbers of five digits: of emissions and decibels, and of any size.
+  constexpr double kLong = -1.2345e-5;
+  constexpr double kLongest = -1.2345e14;
+  constexpr CertifiedError kMax{kLong, kLong, kLong, kLong, kLong, kLong};
+  constexpr CertifiedError kSum{kLongest, kLongest, kLongest, kLongest, kLongest, kLongest};
   Certificate certificate;
   certificate.size = size;
-  certificate.max = certificate.sum = kError;
+  certificate.max = kMax;
+  certificate.sum = kSum;
   certificate.max_emission_error = kLong;
   certificate.rms_emission_error = kLong;
   certificate.emission_error_bound = kLong;
   for (const CertificateView& view : certificate_views()) {
-    certificate.views.push_back({view, kError, kError});
+    certificate.views.push_back({view, kMax, kSum});
   }
   return certificate_json(certificate).dump();
 }

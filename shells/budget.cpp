@@ -16,9 +16,10 @@ struct Rung {
   double step_spacings;
 };
 
-constexpr double kCoarseStep = 1.0 / 4.0;
-constexpr double kMiddleStep = 1.0 / 8.0;
-constexpr double kFineStep = 1.0 / 16.0;
+// A little more than a quarter and so on: exact steps just miss those (docs/decisions/005).
+constexpr double kCoarseStep = 0.26;
+constexpr double kMiddleStep = 0.13;
+constexpr double kFineStep = 0.065;
 constexpr double kFinestStep = 1.0 / 64.0;
 
 // The tolerance is about a layer's width, which costs least at equal error
