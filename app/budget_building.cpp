@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -19,9 +20,11 @@ using nlohmann::ordered_json;
 
 double psnr_db(double rmse) { return -20.0 * std::log10(rmse); }
 
-LadderOptions held_by(const ShellFlags& flags, const EmissionMap& emission, Budget::Unit unit) {
+LadderOptions held_by(const ShellFlags& flags, const EmissionMap& emission, Budget::Unit unit,
+                      const std::string& placement) {
   LadderOptions held;
   held.unit = unit;
+  held.placement = placement;
   if (!flags.levels.empty() || !flags.level_values.empty()) {
     held.levels = levels_of(flags, emission).size();
   }
@@ -35,6 +38,7 @@ ShellFlags flags_of(const ShellFlags& flags, const BudgetCandidate& candidate) {
   if (flags.levels.empty() && flags.level_values.empty()) {
     tried.levels = std::to_string(candidate.levels);
   }
+  tried.placement = candidate.placement;
   tried.tolerance = candidate.tolerance;
   tried.quantization = candidate.bits;
   return tried;
@@ -47,8 +51,9 @@ CommonFlags quiet_flags() {
 }
 
 std::string words(const BudgetCandidate& candidate) {
-  return fmt::format("{} level{}, tolerance {:g}, {} bits", candidate.levels,
-                     candidate.levels == 1 ? "" : "s", candidate.tolerance, candidate.bits);
+  return fmt::format("{} {} level{}, tolerance {:g}, {} bits", candidate.levels,
+                     candidate.placement, candidate.levels == 1 ? "" : "s", candidate.tolerance,
+                     candidate.bits);
 }
 
 /// Builds the candidates of one volume, one after the other, and keeps the best.
@@ -65,6 +70,19 @@ class Trials {
         certifier_(
             input.volume, input.emission,
             {.size = budget.picture_size, .maxima_only = true, .progress = reporter.progress()}) {}
+
+  /// How levels are placed, in turn: evenly, and where they err least if that is asked for or may
+  /// pay. More levels for the same bytes often gain more.
+  std::vector<std::string> placements() {
+    if (!are_placed(flags_)) return {"explicit"};
+    if (flags_.placement != "auto") return {flags_.placement};
+    ordered_json unsaid;
+    std::vector<std::string> placements{"uniform"};
+    if (placer_.place(flags_, silent_, unsaid).placement == "optimal") {
+      placements.emplace_back("optimal");
+    }
+    return placements;
+  }
 
   SetSize build(const BudgetCandidate& candidate) {
     const ShellFlags flags = flags_of(flags_, candidate);
@@ -109,10 +127,11 @@ class Trials {
 };
 
 void say_trial(const BudgetTrial& trial, Reporter& reporter) {
-  reporter.say(fmt::format(
-      "  {:>6} {:>9g} {:>4} {:>9} {:>9}  {}", trial.candidate.levels, trial.candidate.tolerance,
-      trial.candidate.bits, trial.size.triangles, trial.size.bytes,
-      trial.rmse ? fmt::format("{:.2f} dB", psnr_db(*trial.rmse)) : "does not fit"));
+  reporter.say(
+      fmt::format("  {:>6} {:8} {:>9g} {:>4} {:>9} {:>9}  {}", trial.candidate.levels,
+                  trial.candidate.placement, trial.candidate.tolerance, trial.candidate.bits,
+                  trial.size.triangles, trial.size.bytes,
+                  trial.rmse ? fmt::format("{:.2f} dB", psnr_db(*trial.rmse)) : "does not fit"));
 }
 
 ordered_json trade_json(const Budget& budget, const BudgetTrade& trade) {
@@ -134,8 +153,11 @@ ordered_json trade_json(const Budget& budget, const BudgetTrade& trade) {
           {"trials", std::move(trials)}};
 }
 
-[[noreturn]] void refuse(const Budget& budget, const BudgetTrial& smallest) {
+[[noreturn]] void refuse(const Budget& budget, const std::vector<BudgetTrial>& trials) {
   const bool bytes = budget.unit == Budget::Unit::Bytes;
+  const BudgetTrial& smallest = *std::ranges::min_element(
+      trials, {},
+      [&](const BudgetTrial& trial) { return bytes ? trial.size.bytes : trial.size.triangles; });
   throw Error(
       ErrorCode::BadArgument,
       fmt::format("--budget: found {}, expected {} or more, which the smallest set takes "
@@ -153,21 +175,24 @@ CompressedSet build_within_budget(const BudgetFlags& wish, const ShellFlags& fla
                                   Reporter& reporter, BuildFigures& figures) {
   Stopwatch watch;
   const Budget budget = parse_budget(wish.budget);
-  const std::vector<BudgetCandidate> ladder =
-      budget_ladder(input.volume.dims, input.volume.world_from_voxel,
-                    held_by(flags, input.emission, budget.unit));
   Trials trials(wish, flags, input, scratch_folder, reporter);
   reporter.say(fmt::format("budget {}: maximum projections over {} views of {}x{}",
                            budget_words(budget), certificate_views().size(), wish.picture_size.x,
                            wish.picture_size.y));
-  reporter.say("  levels tolerance bits triangles     bytes  PSNR");
+  reporter.say("  levels placed   tolerance bits triangles     bytes  PSNR");
   TrialSteps steps;
   steps.build = [&](const BudgetCandidate& candidate) { return trials.build(candidate); };
   steps.measure = [&] { return trials.measure(); };
   steps.keep = [&] { trials.keep(); };
   steps.tried = [&](const BudgetTrial& trial) { say_trial(trial, reporter); };
-  const BudgetTrade traded = trade(budget, ladder, steps);
-  if (!traded.chosen) refuse(budget, traded.trials.front());
+  BudgetTrade traded;
+  for (const std::string& placement : trials.placements()) {
+    const std::vector<BudgetCandidate> ladder =
+        budget_ladder(input.volume.dims, input.volume.world_from_voxel,
+                      held_by(flags, input.emission, budget.unit, placement));
+    traded = trade(budget, ladder, steps, std::move(traded));
+  }
+  if (!traded.chosen) refuse(budget, traded.trials);
   const BudgetTrial& chosen = traded.trials[*traded.chosen];
   reporter.say(fmt::format("chosen: {}", words(chosen.candidate)));
   BuiltSet best = trials.take(chosen.candidate, figures);

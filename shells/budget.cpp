@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <utility>
 
 #include "shells/quantization.h"
 
@@ -90,7 +91,7 @@ std::vector<BudgetCandidate> budget_ladder(const glm::i64vec3& dims,
     const double step = options.unit == Budget::Unit::Triangles ? kFinestStep : rung.step_spacings;
     const BudgetCandidate candidate{
         rung.levels, rung.tolerance,
-        options.bits ? *options.bits : bits_for(dims, world_from_voxel, step)};
+        options.bits ? *options.bits : bits_for(dims, world_from_voxel, step), options.placement};
     if (ladder.empty() || !is_same(ladder.back(), candidate)) ladder.push_back(candidate);
   }
   return ladder;
@@ -101,23 +102,27 @@ bool fits(const SetSize& size, const Budget& budget) noexcept {
 }
 
 BudgetTrade trade(const Budget& budget, std::span<const BudgetCandidate> ladder,
-                  const TrialSteps& steps) {
-  BudgetTrade trade;
-  double least = std::numeric_limits<double>::infinity();
+                  const TrialSteps& steps, BudgetTrade before) {
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  BudgetTrade trade = std::move(before);
+  double least = trade.chosen ? trade.trials[*trade.chosen].rmse.value_or(kNone) : kNone;
+  // The search's end must not depend on what other ladders gave: that depends on the budget.
+  double least_here = kNone;
+  std::size_t without_gain = 0;
   for (const BudgetCandidate& candidate : ladder) {
     BudgetTrial trial{candidate, steps.build(candidate), std::nullopt};
     if (fits(trial.size, budget)) trial.rmse = steps.measure();
     if (steps.tried) steps.tried(trial);
-    const std::size_t i = trade.trials.size();
     trade.trials.push_back(trial);
     if (!trial.rmse) break;
     if (*trial.rmse < least) {
       least = *trial.rmse;
-      trade.chosen = i;
+      trade.chosen = trade.trials.size() - 1;
       steps.keep();
-    } else if (i - *trade.chosen >= kTrialsWithoutGain) {
-      break;
     }
+    without_gain = *trial.rmse < least_here ? 0 : without_gain + 1;
+    least_here = std::min(least_here, *trial.rmse);
+    if (without_gain == kTrialsWithoutGain) break;
   }
   return trade;
 }

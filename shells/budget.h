@@ -6,6 +6,7 @@
 #include <glm/vec3.hpp>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace nacre {
@@ -21,8 +22,9 @@ struct Budget {
 /// larger the set, and the better its pictures until contouring is what errs.
 struct BudgetCandidate {
   std::size_t levels = 1;
-  double tolerance = 0.0;  ///< emission, see `BuildOptions::emission_tolerance`
-  int bits = 12;           ///< of a coordinate on the set's grid
+  double tolerance = 0.0;             ///< emission, see `BuildOptions::emission_tolerance`
+  int bits = 12;                      ///< of a coordinate on the set's grid
+  std::string placement = "uniform";  ///< of the levels, see `ShellSet`
 };
 
 /// What a caller has chosen already, in place of what the ladder would try.
@@ -30,6 +32,7 @@ struct LadderOptions {
   std::optional<std::size_t> levels = {};
   std::optional<double> tolerance = {};
   std::optional<int> bits = {};
+  std::string placement = "uniform";        ///< of every candidate
   Budget::Unit unit = Budget::Unit::Bytes;  ///< triangles cost the same on any grid: the finest
 };
 
@@ -69,21 +72,23 @@ struct TrialSteps {
 
 /// What was tried, and which is the best that fits.
 struct BudgetTrade {
-  std::vector<BudgetTrial> trials;    ///< in the ladder's order
+  std::vector<BudgetTrial> trials;    ///< in the order they were tried
   std::optional<std::size_t> chosen;  ///< a trial; none where not even the first fits
 };
 
 bool fits(const SetSize& size, const Budget& budget) noexcept;
 
-/// Tries the candidates in order until one does not fit (or `kTrialsWithoutGain` did not better the
-/// picture), and chooses the one with the least measured error of those that did; of equal ones the
-/// first.
+/// Tries the candidates in order until one does not fit (or `kTrialsWithoutGain` in a row were no
+/// better than those before), and chooses the one with the least measured error of those that fit;
+/// of equal ones the first.
 ///
-/// A larger budget never gives a worse picture, by construction: where a trial ends the search does
-/// depend on the budget, but what is tried before is the same, so that a larger budget chooses
-/// among all that a smaller one chooses among, and maybe more.
+/// A larger budget never gives a worse picture, by construction: where a search ends does depend on
+/// the budget, but what is tried before is the same, so that a larger budget chooses among all that
+/// a smaller one chooses among, and maybe more.
+///
+/// @param before  what was tried already, on other ladders: its best is the one to beat
 BudgetTrade trade(const Budget& budget, std::span<const BudgetCandidate> ladder,
-                  const TrialSteps& steps);
+                  const TrialSteps& steps, BudgetTrade before = {});
 
 /// So many candidates in a row without a better picture end the search: contouring is what errs.
 inline constexpr std::size_t kTrialsWithoutGain = 3;

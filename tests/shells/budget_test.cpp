@@ -24,7 +24,7 @@ struct Listed {
   std::vector<SetSize> sizes;
   std::vector<double> errors;
 
-  BudgetTrade within(const Budget& budget) {
+  BudgetTrade within(const Budget& budget, const BudgetTrade& before = {}) {
     std::size_t built = 0;
     kept.reset();
     TrialSteps steps;
@@ -32,7 +32,7 @@ struct Listed {
     steps.measure = [&] { return errors[built - 1]; };
     steps.keep = [&] { kept = built - 1; };
     const std::vector<BudgetCandidate> ladder(sizes.size());
-    return trade(budget, ladder, steps);
+    return trade(budget, ladder, steps, before);
   }
 
   std::optional<std::size_t> kept = {};
@@ -92,6 +92,23 @@ TEST(Budget, NothingIsChosenWhereTheFirstSetIsTooLarge) {
   EXPECT_FALSE(traded.chosen);
   ASSERT_EQ(traded.trials.size(), 1u);
   EXPECT_FALSE(traded.trials[0].rmse);
+}
+
+TEST(Budget, ALargerOneNeverGivesAWorsePictureOnSeveralLadders) {
+  for (unsigned seed = 0; seed < 50; ++seed) {
+    Listed first = random_sets(seed);
+    Listed second = random_sets(seed + 100);
+    double before = 2.0;
+    for (std::size_t most = 0; most <= 1000; most += 10) {
+      const Budget budget{Budget::Unit::Bytes, most};
+      const BudgetTrade traded = second.within(budget, first.within(budget));
+      if (!traded.chosen) continue;
+      const BudgetTrial& chosen = traded.trials[*traded.chosen];
+      EXPECT_TRUE(fits(chosen.size, budget));
+      EXPECT_LE(*chosen.rmse, before) << "seed " << seed << ", " << most;
+      before = *chosen.rmse;
+    }
+  }
 }
 
 TEST(Budget, TheSearchEndsWhereNothingIsGained) {
