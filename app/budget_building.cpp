@@ -126,12 +126,16 @@ class Trials {
   BuiltSet best_;
 };
 
+std::string quality(const BudgetTrial& trial) {
+  if (!trial.rmse) return "does not fit";
+  return *trial.rmse > 0.0 ? fmt::format("{:.2f} dB", psnr_db(*trial.rmse)) : "exact";
+}
+
 void say_trial(const BudgetTrial& trial, Reporter& reporter) {
-  reporter.say(
-      fmt::format("  {:>6} {:8} {:>9g} {:>4} {:>9} {:>9}  {}", trial.candidate.levels,
-                  trial.candidate.placement, trial.candidate.tolerance, trial.candidate.bits,
-                  trial.size.triangles, trial.size.bytes,
-                  trial.rmse ? fmt::format("{:.2f} dB", psnr_db(*trial.rmse)) : "does not fit"));
+  reporter.say(fmt::format("  {:>6} {:8} {:>9g} {:>4} {:>9} {:>9}  {}", trial.candidate.levels,
+                           trial.candidate.placement, trial.candidate.tolerance,
+                           trial.candidate.bits, trial.size.triangles, trial.size.bytes,
+                           quality(trial)));
 }
 
 ordered_json trade_json(const Budget& budget, const BudgetTrade& trade) {
