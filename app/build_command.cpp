@@ -6,6 +6,7 @@
 #include <memory>
 #include <span>
 
+#include "app/budget_building.h"
 #include "app/camera_flags.h"
 #include "app/certificate_words.h"
 #include "app/set_certificate.h"
@@ -23,6 +24,8 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr const char* kNoCertificate = "none";
+// Of the pictures a budget's sets are measured with where there is no certificate to agree with.
+constexpr glm::ivec2 kTradedSize{256, 256};
 
 struct BuildFlags {
   CommonFlags common;
@@ -30,6 +33,7 @@ struct BuildFlags {
   ShellFlags shells;
   std::string output;
   std::string certificate = "512x512";
+  std::string budget;  ///< empty: none
 };
 
 std::size_t triangle_count(const CompressedSet& built) {
@@ -79,20 +83,32 @@ void check_certificate(const std::string& certificate) {
   if (certificate != kNoCertificate) parse_size("--certificate", certificate);
 }
 
+CompressedSet build_set(const BuildFlags& flags, EmissionVolume input, Reporter& reporter,
+                        BuildFigures& figures) {
+  const std::filesystem::path folder = std::filesystem::path(flags.output).parent_path();
+  if (flags.budget.empty()) {
+    return build_compressed_set(flags.shells, std::move(input), folder, reporter, figures);
+  }
+  BudgetFlags budget{.budget = flags.budget, .is_certified = flags.certificate != kNoCertificate};
+  if (budget.is_certified) {
+    budget.picture_size = parse_size("--certificate", flags.certificate);
+  }
+  return build_within_budget(budget, flags.shells, std::move(input), folder, reporter, figures);
+}
+
 void run_build(const BuildFlags& flags) {
   Reporter reporter(flags.common);
   const ThreadLimit limit(flags.common);
   check_name(flags.output);
   check_certificate(flags.certificate);
+  if (!flags.budget.empty()) check_budget(flags.budget);
   AtomicFile file(flags.output);  // before the work, which a bad name would waste
   Stopwatch total;
   Stopwatch watch;
   EmissionVolume input = read_emission_volume(flags.volume, reporter);
   const double reading = watch.lap();
   BuildFigures figures;
-  const CompressedSet built =
-      build_compressed_set(flags.shells, std::move(input),
-                           std::filesystem::path(flags.output).parent_path(), reporter, figures);
+  const CompressedSet built = build_set(flags, std::move(input), reporter, figures);
   const ShellSet& set = built.set;
   const ordered_json levels = level_list(built);
   for (const ordered_json& level : levels) reporter.detail("  " + level.dump());
@@ -120,6 +136,7 @@ void run_build(const BuildFlags& flags) {
   json["left_out"] = figures.left_out;
   json["nesting"] = figures.nesting;
   if (!figures.placement.is_null()) json["predicted"] = figures.placement;
+  if (!figures.budget.is_null()) json["budget"] = figures.budget;
   if (!certificate.is_null()) json["certificate"] = certificate;
   json["seconds"] = {{"read", reading},
                      {"emission", figures.emission},
@@ -127,6 +144,7 @@ void run_build(const BuildFlags& flags) {
                      {"simplify", figures.simplify},
                      {"encode", figures.encode},
                      {"crossings", figures.crossings},
+                     {"trade", figures.trade},
                      {"certificate", figures.certificate},
                      {"write", writing},
                      {"total", total.lap()}};
@@ -141,7 +159,8 @@ void add_build_verb(CLI::App& app, int& /*status*/) {
       "build", "A volume becomes a shell set (.glb), or a page that shows it (.html)");
   verb->footer(
       "Example: nacre build head.nii.gz --window 20,230 --levels 48 -o head.glb\n"
-      "         nacre build head.nii.gz --window 20,230 --tolerance 0.02 -o head.html");
+      "         nacre build head.nii.gz --window 20,230 --tolerance 0.02 -o head.html\n"
+      "         nacre build head.nii.gz --window 20,230 --budget 300kB -o head.glb");
   auto flags = std::make_shared<BuildFlags>();
   verb->add_option("VOLUME", flags->volume.path, "Volume file, or folder of a DICOM series")
       ->required();
@@ -153,6 +172,11 @@ void add_build_verb(CLI::App& app, int& /*status*/) {
                    "WxH of the exact pictures that the set's error is measured with and stated in "
                    "the file; none: no certificate")
       ->capture_default_str();
+  verb->add_option("--budget", flags->budget,
+                   "The best set of at most so many bytes or triangles (2MB, 300kB, 300ktri): "
+                   "levels, tolerance and bits by the measured error of maximum projections; what "
+                   "--levels, --tolerance or --quantization name is held")
+      ->group("Shells");
   add_shell_flags(*verb, flags->shells);
   add_volume_reading_flags(*verb, flags->volume);
   add_emission_flags(*verb, flags->volume);

@@ -16,12 +16,6 @@ constexpr double kGainThatPays = 1.0;  // dB
 
 double psnr_db(double squared_error) { return -10.0 * std::log10(std::max(squared_error, 1e-30)); }
 
-MaximumHistogram histogram_of(const EmissionVolume& input, Reporter& reporter) {
-  const ExactWalk walk(input.volume, input.emission);
-  return maximum_histogram(walk, bounding_sphere(input.volume.dims, input.volume.world_from_voxel),
-                           {.progress = reporter.progress()});
-}
-
 /// The better of uniform and optimal levels, as the flag says; tells what was gained.
 PlacedLevels choose(const LevelFlags& flags, const std::vector<Level>& uniform,
                     const MaximumHistogram& histogram, Reporter& reporter,
@@ -50,16 +44,25 @@ PlacedLevels choose(const LevelFlags& flags, const std::vector<Level>& uniform,
 
 }  // namespace
 
-PlacedLevels place_levels(const LevelFlags& flags, const EmissionVolume& input, Reporter& reporter,
-                          nlohmann::ordered_json& figures) {
-  std::vector<Level> levels = levels_of(flags, input.emission);
+const MaximumHistogram& LevelPlacer::histogram(Reporter& reporter) {
+  if (!histogram_) {
+    const Volume& volume = input_.volume;
+    histogram_ = maximum_histogram(ExactWalk(volume, input_.emission),
+                                   bounding_sphere(volume.dims, volume.world_from_voxel),
+                                   {.progress = reporter.progress()});
+  }
+  return *histogram_;
+}
+
+PlacedLevels LevelPlacer::place(const LevelFlags& flags, Reporter& reporter,
+                                nlohmann::ordered_json& figures) {
+  std::vector<Level> levels = levels_of(flags, input_.emission);
   if (!are_placed(flags)) {
-    return {with_mean_representatives(levels, histogram_of(input, reporter)), "explicit"};
+    return {with_mean_representatives(levels, histogram(reporter)), "explicit"};
   }
   if (flags.placement == "uniform") return {std::move(levels), "uniform"};
-  const MaximumHistogram histogram = histogram_of(input, reporter);
-  if (histogram.groups.empty()) return {std::move(levels), "uniform"};
-  return choose(flags, levels, histogram, reporter, figures);
+  if (histogram(reporter).groups.empty()) return {std::move(levels), "uniform"};
+  return choose(flags, levels, histogram(reporter), reporter, figures);
 }
 
 }  // namespace nacre

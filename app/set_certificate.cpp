@@ -59,7 +59,8 @@ void check_unchanged(const VolumeFlags& flags, const Volume& volume, const Volum
                           flags.path));
 }
 
-/// The set's shells in parts, decoded.
+}  // namespace
+
 void add_shells(const CompressedSet& built, const ProgressCallback& callback,
                 Certifier& certifier) {
   ProgressMeter progress(callback, "certificate", built.shells.size());
@@ -80,7 +81,24 @@ void add_shells(const CompressedSet& built, const ProgressCallback& callback,
   }
 }
 
-}  // namespace
+std::string longest_certificate(const glm::ivec2& size) {
+  // JSON's longest numbers of five digits: of emissions and decibels, and of any size.
+  constexpr double kLong = -1.2345e-5;
+  constexpr double kLongest = -1.2345e14;
+  constexpr CertifiedError kMax{kLong, kLong, kLong, kLong, kLong, kLong};
+  constexpr CertifiedError kSum{kLongest, kLongest, kLongest, kLongest, kLongest, kLongest};
+  Certificate certificate;
+  certificate.size = size;
+  certificate.max = kMax;
+  certificate.sum = kSum;
+  certificate.max_emission_error = kLong;
+  certificate.rms_emission_error = kLong;
+  certificate.emission_error_bound = kLong;
+  for (const CertificateView& view : certificate_views()) {
+    certificate.views.push_back({view, kMax, kSum});
+  }
+  return certificate_json(certificate).dump();
+}
 
 ordered_json certify_set(const VolumeFlags& flags, const glm::ivec2& size,
                          const CompressedSet& built, Reporter& reporter, BuildFigures& figures) {

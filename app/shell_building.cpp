@@ -1,15 +1,8 @@
 #include "app/shell_building.h"
 
-#include <fmt/core.h>
-
-#include <vector>
-
-#include "app/build_words.h"
 #include "app/level_placement.h"
-#include "io/draco_decode.h"
+#include "app/set_building.h"
 #include "shells/build.h"
-#include "shells/crossings.h"
-#include "shells/prune.h"
 
 namespace nacre {
 namespace {
@@ -17,52 +10,9 @@ namespace {
 BuildOptions options_of(const ShellFlags& flags, const EmissionVolume& input, Reporter& reporter,
                         BuildFigures& figures) {
   Stopwatch placing;
-  PlacedLevels placed = place_levels(flags, input, reporter, figures.placement);
+  PlacedLevels placed = LevelPlacer(input).place(flags, reporter, figures.placement);
   figures.emission = placing.lap();
-  BuildOptions options;
-  options.levels = std::move(placed.levels);
-  options.placement = placed.placement;
-  options.emission_tolerance = flags.tolerance;
-  options.tolerance_mm = flags.tolerance_mm;
-  options.quantization_bits = flags.quantization;
-  if (!flags.keep_specks) {
-    options.min_component_mm3 =
-        flags.min_component.value_or(default_speck_mm3(input.volume.world_from_voxel));
-  }
-  options.prune_inner = flags.purpose == "max";
-  options.progress = reporter.progress();
-  return options;
-}
-
-void tell(const BuiltShells& built, Reporter& reporter, BuildFigures& figures) {
-  const BuildReport& report = built.report;
-  if (report.is_grid_coarse) {
-    reporter.warn(
-        fmt::format("the quantisation step is {:.3g} of the smallest spacing, more than "
-                    "1/64: more bits would be needed",
-                    report.step_spacings));
-  }
-  figures.left_out = tell_pruning(built.set.pruned, reporter);
-  figures.extract = report.extract_seconds;
-  figures.simplify = report.simplify_seconds + report.snap_seconds;
-  figures.encode = report.sink_seconds;
-  figures.extracted_triangles = report.extracted_triangles;
-}
-
-/// Counts where neighbours cross as they will decode: two at a time are in memory.
-void count_crossings_of(const CompressedSet& built, Reporter& reporter, BuildFigures& figures) {
-  Stopwatch counting;
-  CrossingCounter counter(built.set);
-  ProgressMeter progress(reporter.progress(), "nesting", built.shells.size());
-  for (std::size_t k = 0; k < built.shells.size(); ++k) {
-    const CompressedShell& shell = built.shells[k];
-    if (!shell.bytes.empty()) {
-      counter.add(k, decode_draco(shell.bytes, {shell.triangles, shell.vertices}));
-    }
-    progress.advance();
-  }
-  figures.crossings = counting.lap();
-  figures.nesting = tell_nesting(counter.result(), reporter);
+  return build_options(flags, input.volume.world_from_voxel, std::move(placed), reporter);
 }
 
 }  // namespace
@@ -71,7 +21,7 @@ ShellSet build_shell_set(const ShellFlags& flags, EmissionVolume input, Reporter
                          BuildFigures& figures) {
   const BuildOptions options = options_of(flags, input, reporter, figures);
   BuiltShells built = build_shells(std::move(input.volume), input.emission, options);
-  tell(built, reporter, figures);
+  tell_build(built.set, built.report, reporter, figures);
   return std::move(built.set);
 }
 
@@ -80,19 +30,10 @@ CompressedSet build_compressed_set(const ShellFlags& flags, EmissionVolume input
                                    BuildFigures& figures) {
   BuildOptions options = options_of(flags, input, reporter, figures);
   options.scratch_folder = scratch_folder;
-  release_free_memory();
-  CompressedSet result;
-  result.shells.resize(options.levels.size());
-  BuiltShells built = build_shells(std::move(input.volume), input.emission, options,
-                                   [&](const ShellSet& set, std::size_t k, TriangleMesh&& surface) {
-                                     result.shells[k] =
-                                         compress_shell(std::move(surface), *set.grid);
-                                     release_free_memory();
-                                   });
-  tell(built, reporter, figures);
-  result.set = std::move(built.set);
-  count_crossings_of(result, reporter, figures);
-  return result;
+  BuiltSet built = build_and_compress(std::move(input.volume), input.emission, options);
+  tell_build(built.compressed.set, built.report, reporter, figures);
+  count_crossings_of(built.compressed, reporter, figures);
+  return std::move(built.compressed);
 }
 
 }  // namespace nacre

@@ -15,7 +15,7 @@ namespace nacre {
 
 /// Which shells to make of a volume, as flags say it.
 struct ShellFlags : LevelFlags {
-  double tolerance = 0.0;               ///< emission; 0: none
+  std::optional<double> tolerance;      ///< emission; 0 or none: no simplification
   double tolerance_mm = 0.0;            ///< mm; 0: none
   int quantization = 0;                 ///< bits; 0: chosen
   std::optional<double> min_component;  ///< mm^3; none: chosen
@@ -35,10 +35,12 @@ struct BuildFigures {
   double encode = 0.0;
   double crossings = 0.0;
   double certificate = 0.0;
+  double trade = 0.0;  ///< trying sets for a budget, the chosen one's building included
   std::size_t extracted_triangles = 0;
   nlohmann::ordered_json left_out = nlohmann::ordered_json::array();  ///< {"what", "why", ...} each
   nlohmann::ordered_json nesting;
   nlohmann::ordered_json placement;
+  nlohmann::ordered_json budget;  ///< what was tried, where there is one
 };
 
 /// Shells of a volume, in memory; the volume is gone afterwards.

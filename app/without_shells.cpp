@@ -1,6 +1,7 @@
 // What a build without the shell tools says where one with them works.
 #include <CLI/CLI.hpp>
 
+#include "app/budget_building.h"
 #include "app/command.h"
 #include "app/error_explaining.h"
 #include "app/report_verbs.h"
@@ -37,6 +38,15 @@ CompressedSet build_compressed_set(const ShellFlags& /*flags*/, EmissionVolume /
                                    Reporter& /*reporter*/, BuildFigures& /*figures*/) {
   refuse();
 }
+
+CompressedSet build_within_budget(const BudgetFlags& /*budget*/, const ShellFlags& /*flags*/,
+                                  EmissionVolume /*input*/,
+                                  const std::filesystem::path& /*scratch_folder*/,
+                                  Reporter& /*reporter*/, BuildFigures& /*figures*/) {
+  refuse();
+}
+
+void check_budget(const std::string& /*budget*/) { refuse(); }
 
 ExplainedError explain_error(const ExplainFlags& /*flags*/, std::optional<Image> /*picture*/,
                              Reporter& /*reporter*/) {

@@ -261,6 +261,11 @@ BuiltShells build_shells(const Volume& volume, const EmissionMap& emission,
   return build(volume, emission, options, {}, [] {});
 }
 
+BuiltShells build_shells(const Volume& volume, const EmissionMap& emission,
+                         const BuildOptions& options, const SurfaceSink& sink) {
+  return build(volume, emission, options, sink, [] {});
+}
+
 BuiltShells build_shells(Volume&& volume, const EmissionMap& emission,
                          const BuildOptions& options) {
   return build_shells(std::move(volume), emission, options, {});

@@ -74,4 +74,8 @@ using SurfaceSink = std::function<void(const ShellSet& set, std::size_t k, Trian
 BuiltShells build_shells(Volume&& volume, const EmissionMap& emission, const BuildOptions& options,
                          const SurfaceSink& sink);
 
+/// The same, the volume staying where it is: for one that several sets are built from.
+BuiltShells build_shells(const Volume& volume, const EmissionMap& emission,
+                         const BuildOptions& options, const SurfaceSink& sink);
+
 }  // namespace nacre

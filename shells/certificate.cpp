@@ -82,17 +82,25 @@ CameraOptions camera_of(const CertificateView& view, const glm::ivec2& size) {
 /// One view's exact pictures, and what the shells show so far.
 class Certifier::Pictures {
  public:
-  Pictures(const ExactWalk& walk, const Camera& camera)
+  /// @param maxima_only  the sums' pictures are then without pixels
+  Pictures(const ExactWalk& walk, const Camera& camera, bool maxima_only)
       : camera_(camera),
         exact_max_(exact_picture(walk, camera, {.mode = PictureMode::Max}).volume),
-        exact_sum_(exact_picture(walk, camera, {.mode = PictureMode::Sum}).volume),
-        shown_max_(make_image(camera.size.x, camera.size.y)),
-        shown_sum_(exact_sum_.pixels.size(), 0.0) {}
+        exact_sum_(maxima_only ? Image()
+                               : exact_picture(walk, camera, {.mode = PictureMode::Sum}).volume) {
+    restart();
+  }
+
+  void restart() {
+    shown_max_ = make_image(camera_.size.x, camera_.size.y);
+    shown_sum_.assign(exact_sum_.pixels.size(), 0.0);
+  }
 
   void add(const ShellSet& part) {
     const Image max = shell_picture(part, camera_, {.mode = PictureMode::Max}).volume;
     std::ranges::transform(shown_max_.pixels, max.pixels, shown_max_.pixels.begin(),
                            [](float a, float b) { return std::max(a, b); });
+    if (shown_sum_.empty()) return;
     const Image sum = shell_picture(part, camera_, {.mode = PictureMode::Sum}).volume;
     for (std::size_t i = 0; i < shown_sum_.size(); ++i) {
       shown_sum_[i] += static_cast<double>(sum.pixels[i]);
@@ -162,7 +170,8 @@ Certifier::Certifier(const Volume& volume, const EmissionMap& emission,
   const ExactWalk walk(volume, emission);
   ProgressMeter progress(options_.progress, "exact pictures", options.views.size());
   for (const CertificateView& view : options.views) {
-    pictures_.emplace_back(walk, make_camera(camera_of(view, options.size), sphere));
+    pictures_.emplace_back(walk, make_camera(camera_of(view, options.size), sphere),
+                           options.maxima_only);
     progress.advance();
   }
   emissions_ = std::make_unique<Emissions>(volume);
@@ -172,7 +181,9 @@ Certifier::~Certifier() = default;
 
 void Certifier::add(const ShellSet& set, std::vector<Shell>&& shells) {
   const double grid_step_mm = set.grid ? step_mm(*set.grid) : 0.0;
-  for (const Shell& shell : shells) emissions_->add(shell, emission_, grid_step_mm);
+  if (!options_.maxima_only) {
+    for (const Shell& shell : shells) emissions_->add(shell, emission_, grid_step_mm);
+  }
   if (shells.empty()) return;
   ShellSet part;
   part.center_mm = set.center_mm;
@@ -184,6 +195,12 @@ void Certifier::add(const ShellSet& set, std::vector<Shell>&& shells) {
   }
   summed_below_ = summed;
   for (Pictures& pictures : pictures_) pictures.add(part);
+}
+
+void Certifier::restart() {
+  for (Pictures& pictures : pictures_) pictures.restart();
+  emissions_ = std::make_unique<Emissions>(volume_);
+  summed_below_ = 0.0;
 }
 
 Certificate Certifier::result() const {

@@ -27,6 +27,7 @@ std::vector<CertificateView> certificate_views();
 struct CertificateOptions {
   glm::ivec2 size{512, 512};  ///< of each picture, pixels
   std::vector<CertificateView> views = certificate_views();
+  bool maxima_only = false;        ///< neither sums nor surfaces are measured: their errors stay 0
   ProgressCallback progress = {};  ///< stages "exact pictures" and "certificate"
 };
 
@@ -81,6 +82,9 @@ class Certifier {
   /// Takes the next shells, from the outermost inwards; empty ones, too.
   /// @param set  the centre and the grid of their positions; its shells are not looked at
   void add(const ShellSet& set, std::vector<Shell>&& shells);
+
+  /// Forgets the shells taken, for those of another set of the volume; the exact pictures stay.
+  void restart();
 
   Certificate result() const;
 

@@ -542,6 +542,67 @@ TEST_F(ShellCommand, PruningIsToldAndStored) {
   expect_refusal("build ball.nii --keep-specks --min-component 1 -o a.glb", 2, "keep-specks");
 }
 
+TEST_F(ShellCommand, ABudgetHoldsAndALargerOneGivesNoWorsePicture) {
+  const std::string build =
+      "build ball.nii --window 0,28 --certificate 32x32 -o b.glb --json - --budget ";
+  double before = 0.0;
+  for (const std::size_t bytes : {6000, 11000}) {
+    const CommandResult result = nacre(build + std::to_string(bytes));
+    ASSERT_EQ(result.status, 0) << result.errors;
+    EXPECT_EQ(result.errors.find("warning"), std::string::npos) << result.errors;
+    EXPECT_LE(std::filesystem::file_size(folder_.path() / "b.glb"), bytes);
+    const json figures = json::parse(result.output);
+    const double psnr_db = figures["certificate"]["max"]["psnr_db"];
+    EXPECT_GE(psnr_db, before) << bytes;
+    before = psnr_db;
+    for (const json& trial : figures["budget"]["trials"]) {
+      EXPECT_EQ(trial["fits"].get<bool>(), trial["bytes"].get<std::size_t>() <= bytes);
+      if (!trial["chosen"].get<bool>()) continue;
+      // What was measured to choose it is what its certificate states.
+      EXPECT_NEAR(trial["psnr_db"].get<double>(), psnr_db, 1e-3);
+    }
+  }
+}
+
+TEST_F(ShellCommand, ABudgetOfTrianglesHolds) {
+  const json figures = json::parse(
+      nacre("build ball.nii --window 0,28 --certificate 8x8 --budget 0.4ktri -o b.glb --json -")
+          .output);
+  EXPECT_LE(figures["triangles"].get<int>(), 400);
+  EXPECT_EQ(figures["budget"]["unit"], "triangles");
+  EXPECT_EQ(figures["budget"]["most"], 400);
+}
+
+TEST_F(ShellCommand, ABudgetHoldsWhatOtherFlagsName) {
+  const json figures = json::parse(nacre("build ball.nii --window 0,28 --certificate 8x8 --levels "
+                                         "5 --quantization 9 --budget 20kB -o b.glb --json -")
+                                       .output);
+  EXPECT_EQ(figures["levels"].size(), 5u);
+  ASSERT_GE(figures["budget"]["trials"].size(), 2u);
+  for (const json& trial : figures["budget"]["trials"]) {
+    EXPECT_EQ(trial["levels"], 5);
+    EXPECT_EQ(trial["bits"], 9);
+  }
+}
+
+TEST_F(ShellCommand, ABudgetGivesTheSameBytesForAnyNumberOfThreads) {
+  const std::string build = "build ball.nii --budget 9kB --certificate 20x20";
+  ASSERT_EQ(nacre(build + " --threads 1 -o one.glb").status, 0);
+  ASSERT_EQ(nacre(build + " --threads 4 -o four.glb").status, 0);
+  EXPECT_EQ(testing::read_bytes(folder_.path() / "one.glb"),
+            testing::read_bytes(folder_.path() / "four.glb"));
+}
+
+TEST_F(ShellCommand, ABudgetThatNothingFitsIsRefusedInOneLine) {
+  expect_refusal("build ball.nii --window 0,28 --budget 100 -o b.glb", 2,
+                 "--budget: found 100 bytes, expected");
+  expect_refusal("build ball.nii --window 0,28 --budget 1tri -o b.glb", 2,
+                 "--budget: found 1 triangles, expected");
+  for (const std::string text : {"much", "-2MB", "0", "2MBs", "nan", "1e99MB", "0.5tri"}) {
+    expect_refusal("build ball.nii --budget=" + text + " -o b.glb", 2, "--budget: found '" + text);
+  }
+}
+
 TEST_F(ShellCommand, PlacementIsChosenOrAsked) {
   const auto placement = [&](const std::string& flags) {
     const CommandResult result =

@@ -112,6 +112,20 @@ TEST(Certificate, IsTheSameInAnyParts) {
   EXPECT_DOUBLE_EQ(parts.rms_emission_error, whole.rms_emission_error);
 }
 
+TEST(Certificate, OfMaximaAloneServesOneSetAfterTheOther) {
+  const Volume noise = random_volume<std::uint8_t>({7, 6, 5}, 0, 255);
+  const EmissionMap emission = window();
+  const ShellSet set = shells_of(noise);
+  Certifier certifier(noise, emission, {.size = kSize, .maxima_only = true});
+  certifier.add(set, {set.shells.back()});
+  certifier.restart();
+  certifier.add(set, std::vector<Shell>(set.shells));
+  const Certificate maxima = certifier.result();
+  EXPECT_DOUBLE_EQ(maxima.max.rmse, certify(set, noise, emission, {.size = kSize}).max.rmse);
+  EXPECT_EQ(maxima.sum.rmse, 0.0);
+  EXPECT_EQ(maxima.rms_emission_error, 0.0);
+}
+
 // The emission of a ball falls linearly: contouring leaves what trilinear cells bend.
 TEST(Certificate, StatesTheEmissionErrorOfTheSurfaces) {
   const Volume ball =
