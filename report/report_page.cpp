@@ -42,14 +42,15 @@ std::vector<PlotSeries> series_of(const Rows& rows,
                                   const std::function<double(const Measured&)>& price) {
   std::vector<PlotSeries> series;
   for (const Measured* row : rows) {
+    if (!(price(*row) > 0.0)) continue;  // unknown
     const std::string& name = row->method.backend;
     auto own = std::ranges::find(series, name, &PlotSeries::name);
     if (own == series.end()) {
       series.push_back({name, style_of(name), {}});
       own = series.end() - 1;
     }
-    own->points.push_back({std::max(price(*row), 1e-9), row->error.lit.psnr_db,
-                           plot_label(row->method), plot_title(*row)});
+    own->points.push_back(
+        {price(*row), row->error.lit.psnr_db, plot_label(row->method), plot_title(*row)});
   }
   return series;
 }
@@ -91,7 +92,7 @@ std::string table_head() {
 std::string table_row(const Measured& row) {
   std::string html =
       fmt::format("<tr{}><td><a href=\"#how-{}\">{}</a></td><td>{}</td>",
-                  row.method.shells ? "" : " class=\"exact\"", escaped(row.method.id),
+                  is_exact(row.method) ? " class=\"exact\"" : "", escaped(row.method.id),
                   escaped(row.method.id), escaped(method_words(row.method)));
   if (!row.left_out.empty()) {
     return html + fmt::format("<td colspan=\"12\" class=\"out\">left out: {}</td></tr>\n",
@@ -142,15 +143,16 @@ std::string pictures(const MeasurementResult& result, const Rows& rows) {
   for (const Measured* row : rows) {
     const Truth& truth = truth_of(result, row->method.subject);
     html += "<figure>" + shown(row->first_view, truth);
-    if (row->method.shells) {
+    if (!is_exact(row->method)) {
       const Image error = difference(row->first_view.volume, truth.first_view.volume);
       const DisplayImage colors = difference_picture(error, 1.0 / (kFullColor * truth.peak));
       html += fmt::format("<img alt=\"difference from the exact picture\" src=\"{}\">",
                           small_uri(colors, truth));
     }
-    html += fmt::format("<figcaption>{}<br>{}</figcaption></figure>\n", escaped(row->method.id),
-                        row->method.shells ? decibel_words(row->error.lit) + " dB over lit pixels"
-                                           : std::string("the exact picture"));
+    html +=
+        fmt::format("<figcaption>{}<br>{}</figcaption></figure>\n", escaped(row->method.id),
+                    is_exact(row->method) ? std::string("the exact picture")
+                                          : decibel_words(row->error.lit) + " dB over lit pixels");
   }
   return html + "</div>\n";
 }
