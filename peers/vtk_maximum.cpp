@@ -138,7 +138,8 @@ Image fixed_point_picture(vtkFixedPointVolumeRayCastMapper& mapper, glm::ivec2 s
     for (int i = 0; i < used[0]; ++i) {
       const int column = i + origin[0];
       if (column < 0 || column >= size.x) continue;
-      picture.at(column, row) = std::min(static_cast<float>(pixels[4 * i]) / kFull, 1.0F);
+      picture.at(column, row) =
+          std::min(static_cast<float>(pixels[4 * std::ptrdiff_t{i}]) / kFull, 1.0F);
     }
   }
   return picture;

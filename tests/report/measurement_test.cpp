@@ -100,10 +100,11 @@ class GrayPeer final : public PeerRenderer {
 
 TEST_F(SmallMeasurement, PeersTakeTheirTurnsAndAreJudgedAlike) {
   GrayPeer gray;
-  options_.methods = cpu_methods();
+  const std::vector<std::string> only{"quantised"};
+  options_.methods = report_methods({.quick = true, .only = only});
   for (const char* caster : {"fixed", "gpu"}) {
     options_.methods.push_back({.id = caster,
-                                .part = "simplified",
+                                .part = "quantised",
                                 .peer = PeerRecipe{caster, 0.5},
                                 .backend = std::string("vtk-") + caster});
   }
