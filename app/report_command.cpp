@@ -2,12 +2,15 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <memory>
 #include <numbers>
+#include <span>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -22,6 +25,7 @@
 #include "report/error_growth.h"
 #include "report/measurement.h"
 #include "report/needle.h"
+#include "report/peer_process.h"
 #include "report/report_page.h"
 #include "report/report_tables.h"
 
@@ -122,11 +126,39 @@ std::string sample_words(const Volume& volume) {
                      spacing.z);
 }
 
+/// The program of VTK's ray casters, which is beside this one where it was built.
+std::string peer_program() {
+  std::error_code unknown;
+  const fs::path own = fs::read_symlink("/proc/self/exe", unknown);
+  const fs::path program = own.parent_path() / "nacre_vtk_peers";
+  return !unknown && fs::exists(program, unknown) ? program.string() : "";
+}
+
+/// Starts it on the volume and views of the report, where a method asks for it.
+std::unique_ptr<PeerProcess> start_peers(const ReportFlags& flags, const CommandTexts& texts,
+                                         std::span<const Method> methods, Reporter& reporter) {
+  const auto asks = [](const Method& method) { return method.peer.has_value(); };
+  if (std::ranges::none_of(methods, asks)) {
+    reporter.detail("VTK's ray casters are not compared: not built, or not asked for");
+    return nullptr;
+  }
+  std::string command =
+      fmt::format("{} {} {} --serve -q", quoted(peer_program()), texts.volume, texts.camera);
+  if (flags.common.threads > 0) command += fmt::format(" --threads {}", flags.common.threads);
+  try {
+    return std::make_unique<PeerProcess>(command);
+  } catch (const Error& error) {
+    reporter.detail(error.what());
+    return nullptr;
+  }
+}
+
 MeasurementOptions measurement_options(const ReportFlags& flags) {
   MeasurementOptions options;
   const std::vector<std::string> only =
       flags.only.empty() ? std::vector<std::string>{} : split(flags.only, ',');
-  options.methods = report_methods(flags.quick, only);
+  options.methods =
+      report_methods({.quick = flags.quick, .with_peers = !peer_program().empty(), .only = only});
   options.slab = slab(flags.camera);
   if (!flags.scene.cue.empty()) options.cue = depth_cue(flags.scene);
   constexpr double kQuickSeconds = 60.0;
@@ -213,6 +245,9 @@ int run_report(const ReportFlags& flags) {
   }
   options.tools = tools;
   const ReportContext context = context_of(flags, input, views, options.cue);
+  const std::unique_ptr<PeerProcess> peers =
+      start_peers(flags, context.commands, options.methods, reporter);
+  options.peers = peers.get();
   const MeasurementResult result =
       measure(input.volume, input.emission, options, reporter.progress());
   const std::string json = report_json(result, context);

@@ -1,35 +1,14 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
-#include <exception>
-#include <new>
 #include <string>
 
 #include "app/command.h"
+#include "app/failures.h"
 #include "app/report_verbs.h"
-#include "core/error.h"
 
 namespace nacre {
 namespace {
-
-constexpr int kWrongUse = 2;
-constexpr int kBadInput = 3;
-constexpr int kCannotHere = 4;
-
-int exit_status(ErrorCode code) {
-  switch (code) {
-    case ErrorCode::BadArgument: return kWrongUse;
-    case ErrorCode::BadFile: return kBadInput;
-    case ErrorCode::Unsupported: return kCannotHere;
-  }
-  return kCannotHere;
-}
-
-int complain(const std::string& message, int status) {
-  // Error flattens messages of many lines.
-  fmt::print(stderr, "nacre: {}\n", Error(ErrorCode::BadArgument, message).what());
-  return status;
-}
 
 /// What is wrong, in words of this command where the parser's do not name it.
 std::string parse_failure(const CLI::App& app, const CLI::ParseError& error, int argc,
@@ -51,7 +30,7 @@ int parse_and_run(CLI::App& app, int argc, char** argv, const int& status) {
   } catch (const CLI::Success& wish) {
     return app.exit(wish);
   } catch (const CLI::ParseError& error) {
-    return complain(parse_failure(app, error, argc, argv), kWrongUse);
+    return complain("nacre", parse_failure(app, error, argc, argv), kWrongUse);
   }
 }
 
@@ -82,15 +61,7 @@ int run_nacre(int argc, char** argv) {
     fmt::print("{}", app.help());
     return kWrongUse;
   }
-  try {
-    return parse_and_run(app, argc, argv, status);
-  } catch (const Error& error) {
-    return complain(error.what(), exit_status(error.code()));
-  } catch (const std::bad_alloc&) {
-    return complain("not enough memory", kCannotHere);
-  } catch (const std::exception& error) {
-    return complain(error.what(), kCannotHere);
-  }
+  return guarded("nacre", [&] { return parse_and_run(app, argc, argv, status); });
 }
 
 }  // namespace nacre

@@ -124,6 +124,7 @@ ordered_json figures_of(const ShellRenderer& renderer, const ExactFlags& flags, 
   for (const LeftOut& left : plan.left_out) {
     json["left_out"].push_back({{"what", left.what}, {"why", left.why}});
   }
+  json["warnings"] = plan.warnings;
   json["triangles_drawn"] = renderer.last_frame().triangles;
   json["uploaded_bytes"] = renderer.uploaded_bytes();
   json["seconds"] = {{"load", timing.load},
@@ -135,11 +136,21 @@ ordered_json figures_of(const ShellRenderer& renderer, const ExactFlags& flags, 
   return json;
 }
 
+/// What the plan of the view that crosses most limits warns of: other views' figures are much the
+/// same.
+void warn_of_limits(const std::vector<Plan>& plans, Reporter& reporter) {
+  const auto most = std::max_element(plans.begin(), plans.end(), [](const Plan& a, const Plan& b) {
+    return a.warnings.size() < b.warnings.size();
+  });
+  for (const std::string& warning : most->warnings) reporter.warn(warning);
+}
+
 /// Draws all views and writes their pictures.
 void draw_views(ShellRenderer& renderer, const ExactFlags& flags, const DrawFlags& draw,
                 const Views& views, const std::vector<Plan>& plans, Timing timing,
                 Reporter& reporter) {
   if (draw.explain) say_plan(plans.front(), reporter);
+  warn_of_limits(plans, reporter);
   timing.frames.resize(plans.size());
   const auto draw_view = [&](int number) {
     const auto view = static_cast<std::size_t>(number);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <memory>
 #include <numbers>
 #include <string>
@@ -33,6 +35,7 @@ struct TablesFlags {
   std::string output;
   std::string hipip;
   std::string angiogram;
+  std::string figures;  ///< file of the paper's own; empty: not at hand
   int views = 6;
 };
 
@@ -147,14 +150,24 @@ nlohmann::ordered_json figures(const std::vector<H96Case>& cases) {
   return {{"rows", json}};
 }
 
+std::vector<H96Figure> paper_figures(const std::string& path) {
+  if (path.empty()) return {};
+  std::ifstream file(path, std::ios::binary);
+  if (!file) {
+    throw Error(ErrorCode::BadFile, fmt::format("{}: found no such file, expected CSV", path));
+  }
+  return read_h96_figures({std::istreambuf_iterator<char>(file), {}}, path);
+}
+
 void run_tables(const TablesFlags& flags) {
   Reporter reporter(flags.common);
   const ThreadLimit limit(flags.common);
+  const std::vector<H96Figure> paper = paper_figures(flags.figures);
   OutputFolder folder(flags.output);
   const MachineFacts machine = machine_facts();
   const std::vector<H96Case> cases = measured_cases(flags, reporter);
-  folder.write("h96.html", h96_page(cases, machine));
-  folder.write("h96.csv", h96_csv(cases));
+  folder.write("h96.html", h96_page(cases, paper, machine));
+  folder.write("h96.csv", h96_csv(cases, paper));
   for (const H96Case& table_case : cases) {
     folder.write(picture_name(table_case, "max"),
                  encode_png(h96_picture(table_case, PictureMode::Max)));
@@ -188,6 +201,9 @@ void add_tables_verb(CLI::App& app, int& /*status*/) {
   verb->add_option("--hipip", flags->hipip,
                    "The signed HIPIP data, -255 to 255 (default: the phantom hipip)");
   verb->add_option("--angiogram", flags->angiogram, "A scan (default: the phantom angiogram)");
+  verb->add_option("--paper-figures", flags->figures,
+                   "The paper's own figures, for the last column: CSV with the columns data_set, "
+                   "levels, mode (maximum, summation), frames_per_s");
   verb->add_option("--turntable", flags->views, "N views about the up axis")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();

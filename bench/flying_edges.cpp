@@ -13,41 +13,11 @@
 #include <vtkVersion.h>
 
 #include <array>
-#include <cstring>
 #include <glm/geometric.hpp>
 
-#include "core/volume_geometry.h"
+#include "peers/vtk_image.h"
 
 namespace nacre {
-namespace {
-
-int vtk_type(ScalarType type) {
-  switch (type) {
-    case ScalarType::U8: return VTK_UNSIGNED_CHAR;
-    case ScalarType::I8: return VTK_SIGNED_CHAR;
-    case ScalarType::U16: return VTK_UNSIGNED_SHORT;
-    case ScalarType::I16: return VTK_SHORT;
-    case ScalarType::U32: return VTK_UNSIGNED_INT;
-    case ScalarType::I32: return VTK_INT;
-    case ScalarType::F32: return VTK_FLOAT;
-    case ScalarType::F64: break;
-  }
-  return VTK_DOUBLE;
-}
-
-vtkSmartPointer<vtkImageData> image_of(const Volume& volume) {
-  const glm::dvec3 spacing = spacing_mm(volume.world_from_voxel);
-  auto image = vtkSmartPointer<vtkImageData>::New();
-  image->SetDimensions(static_cast<int>(volume.dims.x), static_cast<int>(volume.dims.y),
-                       static_cast<int>(volume.dims.z));
-  image->SetSpacing(spacing.x, spacing.y, spacing.z);
-  image->AllocateScalars(vtk_type(volume.type), 1);
-  std::memcpy(image->GetScalarPointer(), volume.samples.data(), volume.samples.size());
-  return image;
-}
-
-}  // namespace
-
 struct FlyingEdges::Pipeline {
   vtkSmartPointer<vtkImageData> image;
   vtkNew<vtkFlyingEdges3D> filter;
@@ -55,7 +25,7 @@ struct FlyingEdges::Pipeline {
 
 FlyingEdges::FlyingEdges(const Volume& volume, std::span<const double> values)
     : pipeline_(std::make_unique<Pipeline>()) {
-  pipeline_->image = image_of(volume);
+  pipeline_->image = vtkSmartPointer<vtkImageData>::Take(new_vtk_image(volume));
   vtkFlyingEdges3D& filter = *pipeline_->filter;
   filter.SetInputData(pipeline_->image);
   filter.ComputeNormalsOff();

@@ -72,6 +72,7 @@ Plan make_plan(const SceneFacts& scene, const Camera& camera, const RenderOption
   planning::find_tools(planning);
   planning::find_shells(planning);
   plan_shells(planning);
+  planning::note_limits(planning);
   plan.rays = drawn_span(planning);
   if (!plan.normals) planning.leave_out("normals", "nothing is lit");
   return plan;

@@ -83,7 +83,10 @@ std::string describe(const Pass& pass);
 struct Plan {
   std::vector<Pass> passes;       ///< none for a picture that is black anyway
   std::vector<LeftOut> left_out;  ///< in the order the rules were tried
-  std::vector<PixelRect> tiles;   ///< the passes are run on each; they cover the picture
+  /// What the chosen formats do not hold of this scene, each in a sentence: brightness that ends or
+  /// is lost in a target or depth buffer of few bits.
+  std::vector<std::string> warnings;
+  std::vector<PixelRect> tiles;  ///< the passes are run on each; they cover the picture
   DepthFormat depth = DepthFormat::D32F;
   TargetFormat target = TargetFormat::F32;
   RaySpan rays;  ///< where rays start and end

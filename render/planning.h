@@ -37,6 +37,8 @@ struct Planning {
   void leave_out(std::string what, std::string_view why) {
     plan.left_out.push_back({std::move(what), std::string(why)});
   }
+
+  void warn(std::string what) { plan.warnings.push_back(std::move(what)); }
 };
 
 /// "shells 2-4, 7 (1200 triangles)" for indices 1, 2, 3, 6, ascending.
@@ -64,5 +66,8 @@ void note_occlusion(Planning& planning);
 void plan_max(Planning& planning);
 void plan_crossings(Planning& planning);
 void plan_lit(Planning& planning);
+
+/// Warns where the scene goes past what the formats hold; after the passes are planned.
+void note_limits(Planning& planning);
 
 }  // namespace nacre::planning

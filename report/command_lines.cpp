@@ -58,9 +58,18 @@ std::string render_line(const Method& method, const CommandTexts& texts) {
   return line + " -o shells-%03d.tif";
 }
 
+std::string peer_line(const PeerRecipe& peer, const CommandTexts& texts) {
+  return fmt::format("nacre_vtk_peers {} {} --caster {} --step {} -o peer-%03d.tif", texts.volume,
+                     texts.camera, peer.caster, peer.step);
+}
+
 }  // namespace
 
 std::vector<std::string> command_lines(const Method& method, const CommandTexts& texts) {
+  if (method.peer) {
+    return {peer_line(*method.peer, texts), exact_line(method.subject, texts),
+            "nacre compare peer-%03d.tif exact-%03d.tif"};
+  }
   if (!method.shells) return {exact_line(method.subject, texts)};
   return {build_line(*method.shells, texts), render_line(method, texts),
           exact_line(method.subject, texts), "nacre compare shells-%03d.tif exact-%03d.tif"};

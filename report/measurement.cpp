@@ -69,6 +69,7 @@ class Measurement {
 
   MeasurementResult run() {
     make_truths();
+    meet_peers();
     int pass = 0;
     double longest = 0.0;
     while (pass < options_.most_passes &&
@@ -131,6 +132,33 @@ class Measurement {
     tell(-1, 1.0);
   }
 
+  /// The peers' pictures, for their errors; what compiles or allocates at first has done it then.
+  void meet_peers() {
+    for (Measured& row : rows_) {
+      if (!row.method.peer) continue;
+      try {
+        meet(row);
+      } catch (const Error& error) {
+        if (error.code() != ErrorCode::Unsupported) throw;
+        row.left_out = error.what();
+      }
+    }
+  }
+
+  void meet(Measured& row) {
+    if (options_.peers == nullptr)
+      throw Error(ErrorCode::Unsupported, "VTK's program did not start");
+    std::vector<Image> pictures;
+    for (std::size_t view = 0; view < options_.cameras.size(); ++view) {
+      PeerFrame frame = options_.peers->draw(*row.method.peer, view);
+      row.device = frame.device;
+      pictures.push_back(std::move(frame.picture));
+    }
+    row.bytes = options_.input_bytes;
+    judge(row, pictures);
+    row.first_view.volume = std::move(pictures.front());
+  }
+
   Times& times_of(const Measured& row) {
     return times_[static_cast<std::size_t>(&row - rows_.data())];
   }
@@ -172,7 +200,7 @@ class Measurement {
     exact_picture(again, options_.cameras.front());
     const auto peak = memory.peak_bytes();
     for (Measured& row : rows_) {
-      if (row.method.shells) continue;
+      if (!is_exact(row.method)) continue;
       times_of(row).build.push_back(seconds);
       row.device = kWalker;
       row.bytes = options_.input_bytes;
@@ -201,23 +229,35 @@ class Measurement {
         if (view == 0) row->first_view = std::move(picture);
       }
       walk_beside(trial.rows(), view);
+      peers_beside(trial.rows(), view);
     }
     for (Measured* row : trial.rows()) {
       if (pass == 0) judge(*row, pictures.at(row));
     }
   }
 
+  /// Whether a row is of the subject and part of shells that were just drawn.
+  static bool is_beside(const Measured& row, std::span<Measured* const> shown) {
+    return std::ranges::any_of(shown, [&](const Measured* other) {
+      return other->method.subject == row.method.subject && other->method.part == row.method.part;
+    });
+  }
+
   /// The exact walks of the subjects that shells were just drawn of: in the same moments.
   void walk_beside(std::span<Measured* const> shown, std::size_t view) {
     for (Measured& row : rows_) {
-      if (row.method.shells) continue;
-      const bool beside = std::ranges::any_of(shown, [&](const Measured* other) {
-        return other->method.subject == row.method.subject && other->method.part == row.method.part;
-      });
-      if (!beside) continue;
+      if (!is_exact(row.method) || !is_beside(row, shown)) continue;
       double seconds = 0.0;
       exact_view(row.method.subject, view, seconds);
       times_of(row).frames.push_back(seconds);
+    }
+  }
+
+  /// The peers' pictures of the same subjects, likewise.
+  void peers_beside(std::span<Measured* const> shown, std::size_t view) {
+    for (Measured& row : rows_) {
+      if (!row.method.peer || !row.left_out.empty() || !is_beside(row, shown)) continue;
+      times_of(row).frames.push_back(options_.peers->draw(*row.method.peer, view).seconds);
     }
   }
 
@@ -231,7 +271,7 @@ class Measurement {
     for (std::size_t i = 0; i < rows_.size(); ++i) {
       Measured& row = rows_[i];
       const ExactViews& exact = truths_.at(row.method.subject);
-      if (!row.method.shells) {
+      if (is_exact(row.method)) {
         row.error = compare_pictures(exact.stacked, exact.stacked, exact.truth.peak);
         row.first_view = exact.truth.first_view;
       }

@@ -14,6 +14,7 @@
 #include "core/tool.h"
 #include "core/volume.h"
 #include "report/method.h"
+#include "report/peer_renderer.h"
 #include "report/picture_error.h"
 #include "report/spread.h"
 
@@ -26,6 +27,7 @@ struct MeasurementOptions {
   Slab slab = {};                  ///< of all pictures
   DepthCue cue = {0.8, 0.2, 0.0};  ///< of the cued ones
   std::span<const Tool> tools = {};
+  PeerRenderer* peers = nullptr;  ///< draws the methods with a `peer`; null: they are left out
   double read_seconds = 0.0;      ///< that reading the volume took
   std::size_t input_bytes = 0;    ///< of the volume's file
   int most_passes = 3;            ///< over all methods
@@ -37,8 +39,10 @@ struct Measured {
   Method method;
   std::string left_out;  ///< why there are no figures; empty if there are
   std::string device;    ///< what drew
-  Spread build_seconds;  ///< shells: extraction to file bytes; the walk: its bricks
-  Spread load_seconds;   ///< shells: bytes to a renderer ready to draw; the walk: reading the file
+  /// Shells: extraction to file bytes; the walk: its bricks; peers: unknown, no samples.
+  Spread build_seconds;
+  /// Shells: bytes to a renderer ready to draw; the walk: reading the file; peers: unknown.
+  Spread load_seconds;
   Spread frame_seconds;
   std::size_t bytes = 0;  ///< of the shell set's file, or the volume's
   std::size_t triangles = 0;
@@ -65,13 +69,13 @@ struct MeasurementResult {
 /// Measures methods on the same views of a volume, in alternation.
 ///
 /// A pass goes through all shell recipes: each is built and encoded, decoded and handed to one
-/// renderer a backend; then, view by view, each method draws one frame in turn, the exact walks of
-/// the same subjects among them. Passes are repeated, so that what the machine does beside it
-/// reaches all methods alike. Each renderer draws one picture before frames are timed.
+/// renderer a backend; then, view by view, each method draws one frame in turn, the exact walks and
+/// the peers of the same subjects among them. Passes are repeated, so that what the machine does
+/// beside it reaches all methods alike. Each renderer draws one picture before frames are timed.
 ///
 /// The error is that of the first pass' pictures against the exact ones (`exact_picture`): pictures
-/// do not depend on the pass. A method that its backend refuses, or whose backend does not open
-/// here, is left out, with the refusal.
+/// do not depend on the pass. A peer draws one picture before frames are timed, too. A method that
+/// its backend refuses, or whose backend does not open here, is left out, with the refusal.
 ///
 /// @throws Error  as `build_shells`, `exact_picture` and `encode_shell_set` do
 MeasurementResult measure(const Volume& volume, const EmissionMap& emission,

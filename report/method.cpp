@@ -78,6 +78,20 @@ void add_max(MethodList& list, bool quick) {
   }
 }
 
+/// Maximum projections by VTK, at several distances between samples.
+void add_peers(MethodList& list, bool quick) {
+  const std::vector<double> steps =
+      quick ? std::vector<double>{0.5, 1.0} : std::vector<double>{0.25, 0.5, 1.0, 2.0};
+  for (const char* caster : {"fixed", "gpu"}) {
+    for (const double step : steps) {
+      list.add({.id = fmt::format("max-vtk-{}-{}", caster, step),
+                .part = "max",
+                .peer = PeerRecipe{caster, step},
+                .backend = fmt::format("vtk-{}", caster)});
+    }
+  }
+}
+
 void add_simplified(MethodList& list, bool quick) {
   const std::vector<double> tolerances =
       quick ? std::vector<double>{0.0, 0.02} : std::vector<double>{0.0, 0.005, 0.01, 0.02, 0.05};
@@ -216,15 +230,18 @@ std::string text_of(const LevelChoice& choice) {
 
 std::span<const ReportPart> report_parts() { return kParts; }
 
-std::vector<Method> report_methods(bool quick, std::span<const std::string> only) {
-  check_parts(only);
-  MethodList list(only);
-  add_max(list, quick);
-  add_simplified(list, quick);
-  add_quantised(list, quick);
-  add_sum(list, quick);
-  add_iso(list, quick);
-  add_count(list, quick);
+bool is_exact(const Method& method) { return !method.shells && !method.peer; }
+
+std::vector<Method> report_methods(const MethodChoice& choice) {
+  check_parts(choice.only);
+  MethodList list(choice.only);
+  if (choice.with_peers) add_peers(list, choice.quick);
+  add_max(list, choice.quick);
+  add_simplified(list, choice.quick);
+  add_quantised(list, choice.quick);
+  add_sum(list, choice.quick);
+  add_iso(list, choice.quick);
+  add_count(list, choice.quick);
   add_occlusion(list);
   add_depth(list);
   add_target(list);

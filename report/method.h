@@ -36,6 +36,14 @@ struct ShellRecipe {
   auto operator<=>(const ShellRecipe&) const = default;
 };
 
+/// How another program, VTK, casts its rays.
+struct PeerRecipe {
+  std::string caster = "fixed";  ///< "fixed": on the processor; "gpu": by OpenGL
+  double step = 0.5;             ///< between samples, in mean spacings of the volume
+
+  auto operator<=>(const PeerRecipe&) const = default;
+};
+
 /// What a picture shows: methods of the same subject are compared with the same truth.
 struct Subject {
   PictureMode mode = PictureMode::Max;
@@ -51,12 +59,16 @@ struct Method {
   std::string id;    ///< "max-24-cpu", unique
   std::string part;  ///< of the report, one of `report_parts`
   Subject subject = {};
-  std::optional<ShellRecipe> shells = {};  ///< none: the exact walk of the volume
-  std::string backend = "exact";           ///< "cpu", "osmesa", "egl"
+  std::optional<ShellRecipe> shells = {};
+  std::optional<PeerRecipe> peer = {};  ///< neither: the exact walk of the volume
+  std::string backend = "exact";        ///< "cpu", "osmesa", "egl"; "vtk-fixed", "vtk-gpu"
   DepthFormat depth = DepthFormat::D32F;
   TargetFormat target = TargetFormat::F32;
   Occlusion occlusion = Occlusion::Auto;
 };
+
+/// Whether the exact walk of the volume draws it.
+bool is_exact(const Method& method);
 
 /// A part of the report: methods that differ in one thing.
 struct ReportPart {
@@ -68,11 +80,17 @@ struct ReportPart {
 /// All parts, in the order of the page.
 std::span<const ReportPart> report_parts();
 
-/// What is measured: for each part the exact walk first, then shells through each backend.
+/// Which methods are wanted.
+struct MethodChoice {
+  bool quick = false;                      ///< fewer level counts, tolerances, quantisations
+  bool with_peers = false;                 ///< VTK's ray casters too
+  std::span<const std::string> only = {};  ///< names of parts; empty: all
+};
+
+/// What is measured: for each part the exact walk first, then what else draws the volume, then
+/// shells through each backend.
 ///
-/// @param quick  fewer level counts, tolerances and quantisations
-/// @param only   names of parts; empty: all
 /// @throws Error BadArgument for a part that does not exist
-std::vector<Method> report_methods(bool quick, std::span<const std::string> only);
+std::vector<Method> report_methods(const MethodChoice& choice);
 
 }  // namespace nacre

@@ -13,17 +13,24 @@
 namespace nacre {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kBackends{{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kBackends{{
     {"exact", "exact walk: every ray through the volume itself"},
     {"cpu", "cpu: shells drawn by the processor alone"},
     {"osmesa", "osmesa: shells drawn by OpenGL in software (OSMesa)"},
     {"egl", "egl: shells drawn by OpenGL (EGL)"},
+    {"vtk-fixed", "vtk-fixed: the volume drawn by VTK's ray caster on the processor"},
+    {"vtk-gpu", "vtk-gpu: the volume drawn by VTK's ray caster in OpenGL (EGL)"},
 }};
 
-const Measured* least(const std::vector<const Measured*>& rows, double (*price)(const Measured&)) {
+bool has_shells(const Measured& row) { return row.method.shells.has_value(); }
+bool has_peer(const Measured& row) { return row.method.peer.has_value(); }
+
+/// The row of the kind with the least price; null if there is none.
+const Measured* least(const std::vector<const Measured*>& rows, bool (*kind)(const Measured&),
+                      double (*price)(const Measured&)) {
   const Measured* best = nullptr;
   for (const Measured* row : rows) {
-    if (row->method.shells && (best == nullptr || price(*row) < price(*best))) best = row;
+    if (kind(*row) && (best == nullptr || price(*row) < price(*best))) best = row;
   }
   return best;
 }
@@ -42,9 +49,27 @@ std::string definition(std::string_view term, const std::string& text) {
   return fmt::format("<dt>{}</dt><dd>{}</dd>\n", term, text);
 }
 
+/// What VTK's rows are, where there are any.
+std::string peer_words(const MeasurementResult& result) {
+  if (std::ranges::none_of(result.rows,
+                           [](const Measured& row) { return row.method.peer.has_value(); })) {
+    return "";
+  }
+  return definition(
+      "VTK",
+      "The Visualization Toolkit, what most programs draw volumes with: it takes "
+      "samples along each ray at a fixed distance, the step, here given in voxels (the "
+      "mean of the three spacings). A program of its own draws them beside this one, in "
+      "turn with the rest.");
+}
+
 }  // namespace
 
 std::string method_words(const Method& method) {
+  if (method.peer) {
+    return fmt::format("VTK, step {}, {}", method.peer->step,
+                       method.peer->caster == "gpu" ? "OpenGL" : "processor");
+  }
   if (!method.shells) {
     const std::string at =
         method.subject.mode == PictureMode::Count || method.subject.mode == PictureMode::Iso
@@ -78,6 +103,7 @@ int style_of(const std::string& backend) {
 }
 
 std::string plot_label(const Method& method) {
+  if (method.peer) return fmt::format("{}", method.peer->step);
   if (!method.shells) return "exact walk";
   if (method.part == "simplified") return fmt::format("{}", method.shells->tolerance);
   if (method.part == "quantised") {
@@ -95,9 +121,13 @@ std::string plot_label(const Method& method) {
 }
 
 std::string plot_title(const Measured& row) {
-  return fmt::format("{}: {} dB, {:.3g} ms a frame, {:.2f} MB, built in {:.3g} s", row.method.id,
-                     decibel_words(row.error.lit), 1e3 * row.frame_seconds.median,
-                     1e-6 * static_cast<double>(row.bytes), row.build_seconds.median);
+  std::string words = fmt::format("{}: {} dB, {:.3g} ms a frame, {:.2f} MB", row.method.id,
+                                  decibel_words(row.error.lit), 1e3 * row.frame_seconds.median,
+                                  1e-6 * static_cast<double>(row.bytes));
+  if (row.build_seconds.samples > 0) {
+    words += fmt::format(", built in {:.3g} s", row.build_seconds.median);
+  }
+  return words;
 }
 
 std::string count_words(std::size_t count) {
@@ -134,23 +164,31 @@ std::string megabyte_words(const std::optional<std::size_t>& bytes) {
 std::string outcome_words(const std::vector<const Measured*>& rows) {
   std::string html = "<ul>\n";
   for (const Measured* row : rows) {
-    if (row->method.shells) continue;
+    if (!is_exact(row->method)) continue;
     html += fmt::format(
         "<li>Without any error: <b>{}</b>, {:.3g} ms a frame, from the volume's "
         "{:.2f} MB.</li>\n",
         escaped(row->method.id), 1e3 * row->frame_seconds.median,
         1e-6 * static_cast<double>(row->bytes));
   }
-  const Measured* fastest = least(rows, frame_price);
+  if (const Measured* peer = least(rows, has_peer, frame_price)) {
+    html += row_words("VTK at its fastest", *peer);
+    html += row_words("VTK at its closest", *least(rows, has_peer, error_price));
+  }
+  const Measured* fastest = least(rows, has_shells, frame_price);
   if (fastest == nullptr) return html + "</ul>\n";
   html += row_words("Fastest shells", *fastest);
-  html += row_words("Smallest file", *least(rows, byte_price));
-  html += row_words("Closest shells", *least(rows, error_price));
+  html += row_words("Smallest file", *least(rows, has_shells, byte_price));
+  html += row_words("Closest shells", *least(rows, has_shells, error_price));
   return html + "</ul>\n";
 }
 
 std::string opening_words(const MeasurementResult& result, const ReportContext& context) {
-  std::string html = fmt::format(
+  std::string html =
+      "<p><b>How close to the truth is each way of drawing this scan, and what does it cost?</b> "
+      "The scan can be drawn as it is, or as surfaces made of it beforehand; from left to right in "
+      "each plot pictures get slower or files larger, from bottom to top they get better.</p>\n";
+  html += fmt::format(
       "<p>{}; emission rises over the values {}. Each method drew the same {}; {} {} over all "
       "methods in turn, {:.0f} s in all.</p>\n",
       escaped(context.samples), escaped(context.window), escaped(context.views), result.passes,
@@ -167,6 +205,7 @@ std::string opening_words(const MeasurementResult& result, const ReportContext& 
       definition("Shells",
                  "Closed surfaces at a number of emission levels, made of triangles once and drawn "
                  "from any side, without the volume.") +
+      peer_words(result) +
       definition("PSNR, RMSE",
                  "How far a picture is from the exact one: the root of the mean squared "
                  "difference, and the same on a logarithmic scale against the brightest possible "

@@ -42,14 +42,15 @@ std::vector<PlotSeries> series_of(const Rows& rows,
                                   const std::function<double(const Measured&)>& price) {
   std::vector<PlotSeries> series;
   for (const Measured* row : rows) {
+    if (!(price(*row) > 0.0)) continue;  // unknown
     const std::string& name = row->method.backend;
     auto own = std::ranges::find(series, name, &PlotSeries::name);
     if (own == series.end()) {
       series.push_back({name, style_of(name), {}});
       own = series.end() - 1;
     }
-    own->points.push_back({std::max(price(*row), 1e-9), row->error.lit.psnr_db,
-                           plot_label(row->method), plot_title(*row)});
+    own->points.push_back(
+        {price(*row), row->error.lit.psnr_db, plot_label(row->method), plot_title(*row)});
   }
   return series;
 }
@@ -64,8 +65,9 @@ std::string plots(const Rows& rows) {
                   series_of(rows, [](const Measured& row) { return row.frame_seconds.median; })});
   if (recipes.size() > 1) {  // else all have one price
     html += to_svg(
-        {"Error against file size", "kilobytes", 1e3,
-         series_of(rows, [](const Measured& row) { return static_cast<double>(row.bytes); })});
+        {"Error against file size", "kilobytes", 1e3, series_of(rows, [](const Measured& row) {
+           return row.method.peer ? 0.0 : static_cast<double>(row.bytes);  // the walk stands for it
+         })});
     html += to_svg({"Error against build time", "milliseconds", 1e-3,
                     series_of(rows, [](const Measured& row) { return row.build_seconds.median; })});
   }
@@ -84,14 +86,14 @@ std::string table_head() {
   return "<div class=\"wide\"><table><thead><tr><th>row</th><th>method</th>"
          "<th>triangles</th><th>PSNR lit<br>dB</th><th>RMSE lit</th><th>max error</th>"
          "<th>PSNR all<br>dB</th><th>RMSE all</th><th>frame<br>ms</th><th>build<br>s</th>"
-         "<th>load<br>ms</th><th>file<br>MB</th><th>build memory<br>MB</th>"
-         "<th>draw memory<br>MB</th></tr></thead><tbody>\n";
+         "<th>load<br>ms</th><th>file<br>MB</th><th>memory to<br>build, MB</th>"
+         "<th>memory to<br>draw, MB</th></tr></thead><tbody>\n";
 }
 
 std::string table_row(const Measured& row) {
   std::string html =
       fmt::format("<tr{}><td><a href=\"#how-{}\">{}</a></td><td>{}</td>",
-                  row.method.shells ? "" : " class=\"exact\"", escaped(row.method.id),
+                  is_exact(row.method) ? " class=\"exact\"" : "", escaped(row.method.id),
                   escaped(row.method.id), escaped(method_words(row.method)));
   if (!row.left_out.empty()) {
     return html + fmt::format("<td colspan=\"12\" class=\"out\">left out: {}</td></tr>\n",
@@ -142,15 +144,16 @@ std::string pictures(const MeasurementResult& result, const Rows& rows) {
   for (const Measured* row : rows) {
     const Truth& truth = truth_of(result, row->method.subject);
     html += "<figure>" + shown(row->first_view, truth);
-    if (row->method.shells) {
+    if (!is_exact(row->method)) {
       const Image error = difference(row->first_view.volume, truth.first_view.volume);
       const DisplayImage colors = difference_picture(error, 1.0 / (kFullColor * truth.peak));
       html += fmt::format("<img alt=\"difference from the exact picture\" src=\"{}\">",
                           small_uri(colors, truth));
     }
-    html += fmt::format("<figcaption>{}<br>{}</figcaption></figure>\n", escaped(row->method.id),
-                        row->method.shells ? decibel_words(row->error.lit) + " dB over lit pixels"
-                                           : std::string("the exact picture"));
+    html +=
+        fmt::format("<figcaption>{}<br>{}</figcaption></figure>\n", escaped(row->method.id),
+                    is_exact(row->method) ? std::string("the exact picture")
+                                          : decibel_words(row->error.lit) + " dB over lit pixels");
   }
   return html + "</div>\n";
 }

@@ -12,6 +12,7 @@ namespace {
 using nlohmann::ordered_json;
 
 ordered_json to_json(const Spread& spread) {
+  if (spread.samples == 0) return nullptr;  // unknown
   return {{"median", spread.median},
           {"quartiles", {spread.lower, spread.upper}},
           {"samples", spread.samples}};
@@ -34,6 +35,10 @@ ordered_json to_json(const std::optional<std::size_t>& bytes) {
 
 ordered_json method_json(const Method& method) {
   ordered_json json = {{"id", method.id}, {"part", method.part}, {"backend", method.backend}};
+  if (method.peer) {
+    json["caster"] = method.peer->caster;
+    json["step"] = method.peer->step;
+  }
   if (!method.shells) return json;
   json["levels"] = text_of(method.shells->levels);
   json["tolerance"] = method.shells->tolerance;
@@ -93,7 +98,7 @@ std::vector<std::string> figure_fields(const Measured& row) {
   std::vector<std::string> fields{fmt::format("{}", row.triangles), fmt::format("{}", row.bytes)};
   for (const Spread* spread : {&row.build_seconds, &row.load_seconds, &row.frame_seconds}) {
     for (const double value : {spread->median, spread->lower, spread->upper}) {
-      fields.push_back(fmt::format("{:.6g}", value));
+      fields.push_back(spread->samples > 0 ? fmt::format("{:.6g}", value) : "");
     }
   }
   fields.push_back(bytes_field(row.build_peak_bytes));
@@ -108,7 +113,8 @@ std::vector<std::string> figure_fields(const Measured& row) {
 }
 
 constexpr std::string_view kCsvNames =
-    "id,part,backend,levels,tolerance,quantization_bits,depth_buffer,target,occlusion,left_out,"
+    "id,part,backend,levels,tolerance,quantization_bits,depth_buffer,target,occlusion,step,left_"
+    "out,"
     "triangles,bytes,build_s,build_s_q1,build_s_q3,load_s,load_s_q1,load_s_q3,frame_s,frame_s_q1,"
     "frame_s_q3,build_peak_bytes,draw_peak_bytes,psnr_lit_db,rmse_lit,max_error_lit,psnr_all_db,"
     "rmse_all,max_error_all,device";
@@ -125,6 +131,7 @@ std::string csv_line(const Measured& row) {
   } else {
     line += ",,,,,";
   }
+  line += method.peer ? fmt::format(",{}", method.peer->step) : ",";
   line += fmt::format(",{}", field(row.left_out));
   if (row.left_out.empty()) {
     for (const std::string& figure : figure_fields(row)) line += fmt::format(",{}", figure);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
 
 #include "report/markup.h"
 
@@ -70,14 +71,23 @@ Frame frame_of(const ScatterPlot& plot) {
   return frame;
 }
 
-/// 1, 2 and 5 times powers of ten within the frame; only powers where those would be many.
+/// Digits of the ticks within a decade, by how many decades there are.
+std::span<const double> tick_digits(double decades) {
+  static constexpr std::array<double, 10> kFine{1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0};
+  static constexpr std::array<double, 3> kUsual{1.0, 2.0, 5.0};
+  if (decades > 2.5) return std::span(kUsual).first(1);
+  if (decades > 0.8) return kUsual;
+  return kFine;
+}
+
+/// Round numbers within the frame: 1, 2 and 5 times powers of ten, fewer or more where those would
+/// be many or hardly any.
 std::vector<double> price_ticks(const Frame& frame, double unit) {
   const double lo = frame.log_price.lo - std::log10(unit);
   const double hi = frame.log_price.hi - std::log10(unit);
   std::vector<double> ticks;
   for (int decade = static_cast<int>(std::floor(lo)); decade <= std::ceil(hi); ++decade) {
-    for (const double digit : {1.0, 2.0, 5.0}) {
-      if (hi - lo > 2.5 && digit > 1.0) continue;
+    for (const double digit : tick_digits(hi - lo)) {
       const double tick = digit * std::pow(10.0, decade);
       if (std::log10(tick) >= lo && std::log10(tick) <= hi) ticks.push_back(tick * unit);
     }

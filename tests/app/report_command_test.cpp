@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -38,8 +39,11 @@ class ReportCommand : public ::testing::Test {
   json repeated(const json& row) const {
     json found;
     for (const std::string& line : row["commands"].get<std::vector<std::string>>()) {
-      EXPECT_EQ(line.rfind("nacre ", 0), 0U) << line;
-      const CommandResult result = nacre(line.substr(6) + " -q --json -");
+      EXPECT_EQ(line.rfind("nacre", 0), 0U) << line;
+      const std::string program = line.substr(0, line.find(' '));
+      const CommandResult result =
+          testing::run_command(std::filesystem::path(NACRE_BINARY).replace_filename(program),
+                               line.substr(program.size()) + " -q --json -", folder_.path());
       EXPECT_EQ(result.status, 0) << line << "\n" << result.errors;
       found = json::parse(result.output);
     }
@@ -73,6 +77,13 @@ TEST_F(ReportCommand, CommandsOfARowGiveItsError) {
   const json figures = report("--only simplified,quantised");
   expect_repeatable(picked(figures, {"simplified-0.02-cpu", "quantised-10-cpu"}));
 }
+
+#if NACRE_HAS_VTK
+TEST_F(ReportCommand, CommandsOfPeersToo) {
+  const json figures = report("--only max");
+  expect_repeatable(picked(figures, {"max-vtk-fixed-1"}));
+}
+#endif
 
 #ifdef NDEBUG  // checked builds take their time to open a context for each command
 TEST_F(ReportCommand, CommandsOfRowsWithToolsCuesAndTargetsToo) {

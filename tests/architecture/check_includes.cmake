@@ -11,7 +11,8 @@ set(may_include_datasets core datasets)
 set(may_include_shells core extract reference shells)
 set(may_include_report core io extract reference render datasets shells report)
 set(may_include_viewer viewer)
-set(folders core io extract reference render datasets shells report viewer)
+set(may_include_peers core render peers)
+set(folders core io extract reference render datasets shells report viewer peers)
 
 # Third-party code stays in .cpp files (GLM and the standard library excepted) ...
 set(third_party "(CGAL|OpenMesh|itk|gdcm|draco|nifti|GL|EGL|GLES[23]|vtk|tbb|oneapi|png|tiff|nlohmann|fmt|CLI)")

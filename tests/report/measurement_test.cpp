@@ -7,6 +7,7 @@
 #include <set>
 #include <string>
 
+#include "core/error.h"
 #include "core/volume_geometry.h"
 #include "datasets/phantom.h"
 #include "report/error_growth.h"
@@ -20,7 +21,7 @@ namespace {
 
 std::vector<Method> cpu_methods() {
   const std::vector<std::string> only{"simplified", "quantised"};
-  return report_methods(true, only);
+  return report_methods({.quick = true, .only = only});
 }
 
 /// A small measurement, without OpenGL.
@@ -44,7 +45,7 @@ class SmallMeasurement : public ::testing::Test {
 TEST(ReportMethods, HaveIdsOfTheirOwnAndKnownParts) {
   for (const bool quick : {true, false}) {
     std::set<std::string> ids;
-    for (const Method& method : report_methods(quick, {})) {
+    for (const Method& method : report_methods({.quick = quick, .with_peers = true})) {
       EXPECT_TRUE(ids.insert(method.id).second) << method.id;
       EXPECT_TRUE(std::ranges::any_of(report_parts(), [&](const ReportPart& part) {
         return part.name == method.part;
@@ -54,10 +55,10 @@ TEST(ReportMethods, HaveIdsOfTheirOwnAndKnownParts) {
 }
 
 TEST(ReportMethods, EveryPartHasTheExactWalkOfEachSubject) {
-  const std::vector<Method> methods = report_methods(false, {});
+  const std::vector<Method> methods = report_methods({});
   for (const Method& method : methods) {
     EXPECT_TRUE(std::ranges::any_of(methods, [&](const Method& exact) {
-      return !exact.shells && exact.part == method.part && exact.subject == method.subject;
+      return is_exact(exact) && exact.part == method.part && exact.subject == method.subject;
     })) << method.id;
   }
 }
@@ -65,7 +66,7 @@ TEST(ReportMethods, EveryPartHasTheExactWalkOfEachSubject) {
 TEST(ReportMethods, RefuseUnknownParts) {
   const std::vector<std::string> only{"max", "speed"};
   testing::expect_error(ErrorCode::BadArgument, "'speed', expected some of max,",
-                        [&] { report_methods(true, only); });
+                        [&] { report_methods({.quick = true, .only = only}); });
 }
 
 TEST_F(SmallMeasurement, EveryRowHasItsFiguresAndTheWalkNoError) {
@@ -81,6 +82,48 @@ TEST_F(SmallMeasurement, EveryRowHasItsFiguresAndTheWalkNoError) {
     EXPECT_EQ(row.first_view.volume.width, 24);
     EXPECT_EQ(row.triangles > 0, row.method.shells.has_value()) << row.method.id;
   }
+}
+
+/// Draws gray pictures; its GPU does not.
+class GrayPeer final : public PeerRenderer {
+ public:
+  PeerFrame draw(const PeerRecipe& recipe, std::size_t /*view*/) override {
+    ++draws;
+    if (recipe.caster == "gpu") throw Error(ErrorCode::Unsupported, "no GPU");
+    PeerFrame frame{make_image(24, 20), 0.001, "gray paint"};
+    for (float& pixel : frame.picture.pixels) pixel = 0.5F;
+    return frame;
+  }
+
+  int draws = 0;
+};
+
+TEST_F(SmallMeasurement, PeersTakeTheirTurnsAndAreJudgedAlike) {
+  GrayPeer gray;
+  const std::vector<std::string> only{"quantised"};
+  options_.methods = report_methods({.quick = true, .only = only});
+  for (const char* caster : {"fixed", "gpu"}) {
+    options_.methods.push_back({.id = caster,
+                                .part = "quantised",
+                                .peer = PeerRecipe{caster, 0.5},
+                                .backend = std::string("vtk-") + caster});
+  }
+  options_.peers = &gray;
+  const MeasurementResult result = run();
+  const Measured& fixed = result.rows[result.rows.size() - 2];
+  EXPECT_EQ(fixed.left_out, "");
+  EXPECT_EQ(fixed.device, "gray paint");
+  EXPECT_EQ(fixed.frame_seconds.samples, 8) << "two views beside two recipes in two passes";
+  EXPECT_EQ(fixed.frame_seconds.median, 0.001);
+  EXPECT_EQ(fixed.build_seconds.samples, 0);
+  EXPECT_EQ(fixed.error.all.max_error, 0.5) << "over black and over what shines fully";
+  EXPECT_EQ(result.rows.back().left_out, "no GPU");
+  EXPECT_EQ(gray.draws, 2 + 1 + 8);
+}
+
+TEST_F(SmallMeasurement, WithoutPeersTheirRowsAreLeftOut) {
+  options_.methods = {{.id = "vtk", .part = "max", .peer = PeerRecipe{}, .backend = "vtk-fixed"}};
+  EXPECT_EQ(run().rows.front().left_out, "VTK's program did not start");
 }
 
 TEST_F(SmallMeasurement, ErrorsAreTheSameEachTime) {

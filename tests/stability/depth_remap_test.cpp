@@ -9,27 +9,11 @@
 
 #include "core/error.h"
 #include "render/plan.h"
+#include "tests/stability/depth_formats.h"
 #include "tests/stability/stability_case.h"
 
 namespace nacre::testing {
 namespace {
-
-constexpr std::array<DepthFormat, 3> kFormats{DepthFormat::D16, DepthFormat::D24,
-                                              DepthFormat::D32F};
-
-/// What a depth buffer gives back of what is written to it.
-double stored(DepthFormat format, double depth) {
-  if (format == DepthFormat::D32F) return static_cast<double>(static_cast<float>(depth));
-  const double steps = format == DepthFormat::D16 ? 65535.0 : 16777215.0;
-  return std::round(std::clamp(depth, 0.0, 1.0) * steps) / steps;
-}
-
-/// The same through OpenGL's usual clip range: the vertex stage writes 2 d - 1 as a float, which is
-/// then halved and moved back.
-double stored_by_default(DepthFormat format, double depth) {
-  const auto clip = static_cast<float>(2.0 * depth - 1.0);
-  return stored(format, static_cast<double>(0.5F * clip + 0.5F));
-}
 
 /// Shells of these representatives, each within the one before.
 SceneFacts nested(const std::vector<double>& representatives) {
@@ -55,8 +39,6 @@ double emission_of(const Plan& plan, double depth) {
       plan.emission_of_rank[static_cast<std::size_t>(std::lround(depth * ranks))]);
 }
 
-std::string format_words(DepthFormat format) { return "depth buffer " + std::string(name(format)); }
-
 /// Largest relative error over the shells, uncued.
 double rank_error(const std::vector<double>& representatives, DepthFormat format) {
   const Plan plan = plan_of(representatives, format);
@@ -65,15 +47,6 @@ double rank_error(const std::vector<double>& representatives, DepthFormat format
     const double truth = representatives[draw.shell];
     const double shown = emission_of(plan, stored(format, draw.depth_at_near));
     largest = std::max(largest, std::abs(shown - truth) / truth);
-  }
-  return largest;
-}
-
-/// The same where emission itself is the depth, in OpenGL's usual clip range.
-double emission_as_depth_error(const std::vector<double>& representatives, DepthFormat format) {
-  double largest = 0.0;
-  for (const double truth : representatives) {
-    largest = std::max(largest, std::abs(stored_by_default(format, truth) - truth) / truth);
   }
   return largest;
 }
