@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <utility>
 #include <vector>
 
 #include "app/build_words.h"
@@ -14,14 +15,13 @@
 namespace nacre {
 namespace {
 
-BuildOptions options_of(const ShellFlags& flags, const EmissionVolume& input, Reporter& reporter,
-                        BuildFigures& figures) {
-  Stopwatch placing;
-  PlacedLevels placed = place_levels(flags, input, reporter, figures.placement);
-  figures.emission = placing.lap();
+// Draco's effort where its time counts and the bytes only pass through memory.
+constexpr int kQuickCompression = 1;
+
+BuildOptions options_of(const ShellFlags& flags, const EmissionVolume& input, PlacedLevels placed) {
   BuildOptions options;
   options.levels = std::move(placed.levels);
-  options.placement = placed.placement;
+  options.placement = std::move(placed.placement);
   options.emission_tolerance = flags.tolerance;
   options.tolerance_mm = flags.tolerance_mm;
   options.quantization_bits = flags.quantization;
@@ -30,6 +30,15 @@ BuildOptions options_of(const ShellFlags& flags, const EmissionVolume& input, Re
         flags.min_component.value_or(default_speck_mm3(input.volume.world_from_voxel));
   }
   options.prune_inner = flags.purpose == "max";
+  return options;
+}
+
+BuildOptions options_of(const ShellFlags& flags, const EmissionVolume& input, Reporter& reporter,
+                        BuildFigures& figures) {
+  Stopwatch placing;
+  PlacedLevels placed = place_levels(flags, input, reporter, figures.placement);
+  figures.emission = placing.lap();
+  BuildOptions options = options_of(flags, input, std::move(placed));
   options.progress = reporter.progress();
   return options;
 }
@@ -93,6 +102,23 @@ CompressedSet build_compressed_set(const ShellFlags& flags, EmissionVolume input
   result.set = std::move(built.set);
   count_crossings_of(result, reporter, figures);
   return result;
+}
+
+CompressedSet build_one_level(const ShellFlags& flags, const EmissionVolume& input,
+                              double emission) {
+  const BuildOptions options = options_of(flags, input, {{{emission, 1.0}}, "explicit"});
+  CompressedSet result;
+  result.set = build_shells(input.volume, input.emission, options).set;
+  TriangleMesh surface = std::exchange(result.set.shells.front().surface, {});
+  result.shells.resize(1);
+  if (!surface.triangles.empty()) {
+    result.shells.front() = compress_shell(std::move(surface), *result.set.grid, kQuickCompression);
+  }
+  return result;
+}
+
+bool is_simplifying(const ShellFlags& flags) {
+  return flags.tolerance > 0.0 || flags.tolerance_mm > 0.0;
 }
 
 }  // namespace nacre

@@ -38,6 +38,13 @@ CompressedSet build_compressed_set(const ShellFlags& /*flags*/, EmissionVolume /
   refuse();
 }
 
+CompressedSet build_one_level(const ShellFlags& /*flags*/, const EmissionVolume& /*input*/,
+                              double /*emission*/) {
+  refuse();
+}
+
+bool is_simplifying(const ShellFlags& /*flags*/) { return false; }
+
 ExplainedError explain_error(const ExplainFlags& /*flags*/, std::optional<Image> /*picture*/,
                              Reporter& /*reporter*/) {
   refuse();
