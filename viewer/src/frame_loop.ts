@@ -120,6 +120,7 @@ export class FrameLoop {
     this.ends = [...this.ends.filter((end) => end > now - 1000), now];
     this.rate = this.ends.length;
     if (this.isMoving()) this.detail.account(this.milliseconds);
+    else this.detail.accountAtRest(this.milliseconds);
     this.measured();
   }
 }
