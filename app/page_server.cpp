@@ -19,6 +19,9 @@ namespace {
 
 constexpr const char* kHost = "127.0.0.1";
 
+// On this machine nothing takes long to arrive; an end waits for connections that ask for nothing.
+constexpr time_t kIdleSeconds = 1;
+
 /// The library's own would let two servers share a port: requests would go to either.
 void set_socket_options(int socket) {
   const int yes = 1;
@@ -123,6 +126,8 @@ void serve_page(const ServedPage& served, int port,
   LevelLocks locks;
   add_answers(server, served, locks);
   server.set_socket_options(set_socket_options);
+  server.set_keep_alive_timeout(kIdleSeconds);
+  server.set_read_timeout(kIdleSeconds);
   const int bound = port == 0                          ? server.bind_to_any_port(kHost)
                     : server.bind_to_port(kHost, port) ? port
                                                        : -1;
