@@ -12,6 +12,7 @@ export function showMiddles(levels: readonly Level[]): void {
   levels.forEach((level, k) => {
     const next = levels[k + 1];
     level.representative = next ? (level.emission + next.emission) / 2 : 1;
+    level.sumRepresentative = level.representative;
   });
 }
 
