@@ -87,8 +87,9 @@ class Trials {
   SetSize build(const BudgetCandidate& candidate) {
     const ShellFlags flags = flags_of(flags_, candidate);
     ordered_json unsaid;
-    BuildOptions options = build_options(flags, input_.volume.world_from_voxel,
-                                         placer_.place(flags, silent_, unsaid), reporter_);
+    BuildOptions options =
+        build_options(flags, input_.volume.world_from_voxel, placer_.place(flags, silent_, unsaid),
+                      reporter_.progress());
     options.scratch_folder = scratch_folder_;
     at_hand_ = build_and_compress(input_.volume, input_.emission, options);
     return {assemble_shell_set(at_hand_.compressed.set, at_hand_.compressed.shells,

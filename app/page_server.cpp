@@ -19,6 +19,9 @@ namespace {
 
 constexpr const char* kHost = "127.0.0.1";
 
+// On this machine nothing takes long to arrive; an end waits for connections that ask for nothing.
+constexpr time_t kIdleSeconds = 1;
+
 /// The library's own would let two servers share a port: requests would go to either.
 void set_socket_options(int socket) {
   const int yes = 1;
@@ -63,24 +66,32 @@ double emission_of(const httplib::Request& request) {
   return fits && emission > 0.0 && emission <= 1.0 ? emission : 0.0;
 }
 
-void answer_level(const ServedPage& served, std::mutex& one_at_a_time,
-                  const httplib::Request& request, httplib::Response& response) {
-  const double emission = emission_of(request);
-  if (emission == 0.0) {
+/// Shells under way: one draft and one other, so that a draft waits for no simplification.
+struct LevelLocks {
+  std::mutex draft;
+  std::mutex whole;
+};
+
+void answer_level(const ServedPage& served, LevelLocks& locks, const httplib::Request& request,
+                  httplib::Response& response) {
+  const LevelRequest level{emission_of(request), request.has_param("draft")};
+  if (level.emission == 0.0) {
     response.status = 400;
     return response.set_content("found no emission, expected one above 0 and up to 1",
                                 "text/plain");
   }
-  const std::lock_guard lock(one_at_a_time);
+  const std::lock_guard lock(level.draft ? locks.draft : locks.whole);
   try {
-    set_content(response, served.level(emission));
+    const ServedLevel made = served.level(level);
+    set_content(response, made.set);
+    if (made.is_draft) response.set_header("Nacre-Draft", "yes");
   } catch (const std::exception& error) {
     response.status = 500;
     response.set_content(error.what(), "text/plain");
   }
 }
 
-void add_answers(httplib::Server& server, const ServedPage& served, std::mutex& one_at_a_time) {
+void add_answers(httplib::Server& server, const ServedPage& served, LevelLocks& locks) {
   using Request = httplib::Request;
   using Response = httplib::Response;
   server.set_default_headers(
@@ -97,7 +108,7 @@ void add_answers(httplib::Server& server, const ServedPage& served, std::mutex& 
              [&served](const Request&, Response& response) { set_content(response, served.set); });
   if (!served.level) return;
   server.Post("/level", [&](const Request& request, Response& response) {
-    answer_level(served, one_at_a_time, request, response);
+    answer_level(served, locks, request, response);
   });
 }
 
@@ -112,9 +123,11 @@ void serve_page(const ServedPage& served, int port,
                 const std::function<void(const std::string& address)>& ready) {
   hold_signals();
   httplib::Server server;
-  std::mutex one_at_a_time;
-  add_answers(server, served, one_at_a_time);
+  LevelLocks locks;
+  add_answers(server, served, locks);
   server.set_socket_options(set_socket_options);
+  server.set_keep_alive_timeout(kIdleSeconds);
+  server.set_read_timeout(kIdleSeconds);
   const int bound = port == 0                          ? server.bind_to_any_port(kHost)
                     : server.bind_to_port(kHost, port) ? port
                                                        : -1;

@@ -7,13 +7,25 @@
 
 namespace nacre {
 
+/// A level whose shell is asked for.
+struct LevelRequest {
+  double emission = 0.0;  ///< in (0, 1]
+  bool draft = false;     ///< whether a quick one will do
+};
+
+/// A shell file with that one level.
+struct ServedLevel {
+  std::vector<std::byte> set;
+  bool is_draft = false;  ///< whether asking for another than a draft gives another shell
+};
+
 /// What a server gives away, and nothing else: the page, the set it fetches, and where there is a
 /// volume the shell of any level.
 struct ServedPage {
   std::string html;
   std::vector<std::byte> set;
-  /// A shell file with the one level at that emission, in (0, 1]; empty where there is no volume.
-  std::function<std::vector<std::byte>(double emission)> level = {};
+  /// Empty where there is no volume. A draft may be asked for while another shell is being made.
+  std::function<ServedLevel(const LevelRequest& request)> level = {};
 };
 
 /// Serves on the loopback interface until this process is told to end by SIGINT or SIGTERM.

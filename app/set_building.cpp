@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <utility>
+
 #include "app/build_words.h"
 #include "io/draco_decode.h"
 #include "shells/crossings.h"
@@ -28,7 +30,7 @@ BuiltSet compress(std::size_t levels, Build&& build) {
 }  // namespace
 
 BuildOptions build_options(const ShellFlags& flags, const glm::dmat4& world_from_voxel,
-                           PlacedLevels levels, Reporter& reporter) {
+                           PlacedLevels levels, ProgressCallback progress) {
   BuildOptions options;
   options.levels = std::move(levels.levels);
   options.placement = std::move(levels.placement);
@@ -39,7 +41,7 @@ BuildOptions build_options(const ShellFlags& flags, const glm::dmat4& world_from
     options.min_component_mm3 = flags.min_component.value_or(default_speck_mm3(world_from_voxel));
   }
   options.prune_inner = flags.purpose == "max";
-  options.progress = reporter.progress();
+  options.progress = std::move(progress);
   return options;
 }
 

@@ -11,7 +11,7 @@ namespace nacre {
 
 /// How the flags want these levels built; not where surfaces wait.
 BuildOptions build_options(const ShellFlags& flags, const glm::dmat4& world_from_voxel,
-                           PlacedLevels levels, Reporter& reporter);
+                           PlacedLevels levels, ProgressCallback progress);
 
 /// A compressed set, and what building it took.
 struct BuiltSet {

@@ -1,5 +1,7 @@
 #include "app/shell_building.h"
 
+#include <utility>
+
 #include "app/level_placement.h"
 #include "app/set_building.h"
 #include "shells/build.h"
@@ -7,12 +9,16 @@
 namespace nacre {
 namespace {
 
+// Draco's effort where its time counts and the bytes only pass through memory.
+constexpr int kQuickCompression = 1;
+
 BuildOptions options_of(const ShellFlags& flags, const EmissionVolume& input, Reporter& reporter,
                         BuildFigures& figures) {
   Stopwatch placing;
   PlacedLevels placed = LevelPlacer(input).place(flags, reporter, figures.placement);
   figures.emission = placing.lap();
-  return build_options(flags, input.volume.world_from_voxel, std::move(placed), reporter);
+  return build_options(flags, input.volume.world_from_voxel, std::move(placed),
+                       reporter.progress());
 }
 
 }  // namespace
@@ -34,6 +40,24 @@ CompressedSet build_compressed_set(const ShellFlags& flags, EmissionVolume input
   tell_build(built.compressed.set, built.report, reporter, figures);
   count_crossings_of(built.compressed, reporter, figures);
   return std::move(built.compressed);
+}
+
+CompressedSet build_one_level(const ShellFlags& flags, const EmissionVolume& input,
+                              double emission) {
+  const BuildOptions options =
+      build_options(flags, input.volume.world_from_voxel, {{{emission, 1.0}}, "explicit"}, {});
+  CompressedSet result;
+  result.set = build_shells(input.volume, input.emission, options).set;
+  TriangleMesh surface = std::exchange(result.set.shells.front().surface, {});
+  result.shells.resize(1);
+  if (!surface.triangles.empty()) {
+    result.shells.front() = compress_shell(std::move(surface), *result.set.grid, kQuickCompression);
+  }
+  return result;
+}
+
+bool is_simplifying(const ShellFlags& flags) {
+  return flags.tolerance.value_or(0.0) > 0.0 || flags.tolerance_mm > 0.0;
 }
 
 }  // namespace nacre

@@ -61,4 +61,18 @@ CompressedSet build_compressed_set(const ShellFlags& flags, EmissionVolume input
                                    const std::filesystem::path& scratch_folder, Reporter& reporter,
                                    BuildFigures& figures);
 
+/// The shell of one more level of a volume that stays: a set of one, as fast as it can be had.
+///
+/// What needs looks at the whole set or along rays is left out: the representative is 1, whatever
+/// maxima through the layer would make of it, and no crossings are counted.
+///
+/// @param emission  in (0, 1]
+/// @throws Error    as `build_shells`
+CompressedSet build_one_level(const ShellFlags& flags, const EmissionVolume& input,
+                              double emission);
+
+/// Whether the flags ask for surfaces to be simplified, which takes many times as long as making
+/// them.
+bool is_simplifying(const ShellFlags& flags);
+
 }  // namespace nacre

@@ -69,12 +69,12 @@ EmissionVolume copy_of(const EmissionVolume& input) {
   return {std::move(copy), input.emission};
 }
 
-/// A shell file with the one level at that emission.
-std::vector<std::byte> set_of_level(ShellFlags flags, const EmissionVolume& input, double emission,
-                                    Reporter& reporter) {
-  flags.levels = fmt::format("{:.9f}", emission);
-  flags.level_values.clear();
-  return built_set(flags, copy_of(input), reporter);
+/// The shell of a level; a draft of it is not simplified.
+ServedLevel level_at(ShellFlags flags, const EmissionVolume& input, const LevelRequest& request) {
+  const bool is_draft = request.draft && is_simplifying(flags);
+  if (is_draft) flags.tolerance = flags.tolerance_mm = 0.0;
+  const CompressedSet built = build_one_level(flags, input, request.emission);
+  return {assemble_shell_set(built.set, built.shells), is_draft};
 }
 
 /// Opens the address where a desktop is; where none is, the address has been said.
@@ -113,8 +113,8 @@ void view_volume(const ViewFlags& flags, Reporter& reporter) {
   }
   ServedPage served;
   served.set = built_set(flags.shells, copy_of(input), reporter);
-  served.level = [&](double emission) {
-    return set_of_level(flags.shells, input, emission, reporter);
+  served.level = [&](const LevelRequest& request) {
+    return level_at(flags.shells, input, request);
   };
   serve(flags, std::move(served), reporter);
 }

@@ -48,6 +48,13 @@ CompressedSet build_within_budget(const BudgetFlags& /*budget*/, const ShellFlag
 
 void check_budget(const std::string& /*budget*/) { refuse(); }
 
+CompressedSet build_one_level(const ShellFlags& /*flags*/, const EmissionVolume& /*input*/,
+                              double /*emission*/) {
+  refuse();
+}
+
+bool is_simplifying(const ShellFlags& /*flags*/) { return false; }
+
 ExplainedError explain_error(const ExplainFlags& /*flags*/, std::optional<Image> /*picture*/,
                              Reporter& /*reporter*/) {
   refuse();

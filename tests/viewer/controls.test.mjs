@@ -1,34 +1,45 @@
 // Every control, operated as a user would, and its effect seen in the picture or the address.
 import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
 import { after, before, beforeEach, test } from "node:test";
 import { goTo, inFolder, launch, look, makeAngiogram, nacre, open, psnr, savePicture, settled, toolPose, writeTool } from "./support.mjs";
 
 const browser = await launch();
+const size = { width: 770, height: 400 };
 let page;
 let url;
+/** The picture as it was last looked at; null if it may have changed since. */
+let seen = null;
 
 before(async () => {
   writeTool();
   url = makeAngiogram();
   nacre("phantom", "spheres", "--size", "24,24,24", "-o", "ball.nrrd", "-q");
   nacre("build", "ball.nrrd", "--window", "0,28", "--levels", "2", "-o", "ball.glb", "-q");
-  page = await open(browser, url, { width: 910, height: 520 });
+  page = await open(browser, url, size);
 });
-beforeEach(() => goTo(page, ""));
+beforeEach(() => {
+  seen = null;
+  return goTo(page, "");
+});
 after(() => browser.close());
 
-const address = async () => {
-  await page.waitForTimeout(400); // it follows the state a few times a second
-  return decodeURIComponent(new URL(page.url()).hash.slice(1));
-};
+const hashNow = () => decodeURIComponent(new URL(page.url()).hash.slice(1));
+
+/** The address once it matches: it follows the state a few times a second. */
+async function address(hash) {
+  for (let tries = 0; tries < 100 && !hash.test(hashNow()); ++tries) await page.waitForTimeout(30);
+  return hashNow();
+}
 
 /** The act changes the picture; the address then matches. */
 async function changes(what, act, hash) {
-  const earlier = await look(page);
+  const earlier = seen ?? await look(page);
   await act();
   await settled(page);
-  assert.notEqual(await look(page), earlier, `${what}: the picture is the same`);
-  if (hash) assert.match(await address(), hash, what);
+  seen = await look(page);
+  assert.notEqual(seen, earlier, `${what}: the picture is the same`);
+  if (hash) assert.match(await address(hash), hash, what);
 }
 
 async function setNumber(name, value) {
@@ -95,7 +106,55 @@ test("letters say where the patient's sides are", async () => {
   await page.click("[data-view=inferior]");
   await settled(page);
   assert.deepEqual(await letters(), { left: "R", right: "L", top: "A", bottom: "P" });
-  assert.match(await page.textContent("#scale-bar"), /^\d+ mm$/);
+});
+
+test("the millimetre scale is as long as it says", async () => {
+  // 512 pixels across the sphere of the volume at zoom 1; `nacre info` says its radius.
+  const radius = Number(nacre("info", "angiogram.nrrd").match(/radius ([\d.]+) mm/)[1]);
+  const { height, width } = await canvas();
+  for (const zoom of [1, 2.5]) {
+    await goTo(page, `zoom=${zoom}`);
+    const mm = Number((await page.textContent("#scale-bar")).match(/^(\d+) mm$/)[1]);
+    const bar = await page.locator("#scale-bar").evaluate((e) => parseFloat(e.style.width));
+    const expected = (mm * Math.min(width, height) * zoom) / (2 * radius);
+    assert.ok(Math.abs(bar / expected - 1) < 0.02, `${mm} mm: found ${bar} pixels, expected ${expected}`);
+  }
+});
+
+test("the list says each shell's level, triangles and colour", async () => {
+  nacre("info", "angiogram.glb", "--json", "set.json", "-q");
+  const set = JSON.parse(readFileSync(inFolder("set.json")));
+  const rows = await page.locator(".shell").evaluateAll((all) => all.map((row) => ({
+    text: row.textContent, color: row.querySelector("i").style.background })));
+  assert.equal(rows.length, set.levels.length);
+  const [darkest, brightest] = [rows.at(-1), rows[0]];
+  assert.ok(darkest.text.startsWith(set.levels[0].emission.toFixed(3)), darkest.text);
+  assert.ok(darkest.text.endsWith(set.levels[0].triangles.toLocaleString("en")), darkest.text);
+  const gray = (row) => Number(row.color.match(/\d+/)[0]);
+  assert.ok(Math.abs(gray(darkest) - 255 * set.levels[0].representative) < 1.5, darkest.color);
+  assert.ok(gray(brightest) > gray(darkest));
+  await page.selectOption("#color-map", "hot");
+  await settled(page);
+  const hot = await page.locator(".shell i").first().evaluate((e) => e.style.background);
+  assert.notEqual(hot, brightest.color);
+});
+
+test("frame time and size are in view", async () => {
+  assert.match(await page.textContent("#status"), /^[\d.]+ ms a frame\n\d+k triangles, \d+ × \d+$/);
+});
+
+test("a picture is saved at the size chosen, by button and by key", async () => {
+  const sizeOf = (name) => { const png = readFileSync(inFolder(name)); return [png.readUInt32BE(16), png.readUInt32BE(20)]; };
+  await savePicture(page, "saved.png", 90, 60);
+  assert.deepEqual(sizeOf("saved.png"), [90, 60]);
+  await page.locator("#picture").focus();
+  const [download] = await Promise.all([page.waitForEvent("download"), page.keyboard.press("s")]);
+  await download.saveAs(inFolder("key.png"));
+  assert.deepEqual(sizeOf("key.png"), [90, 60]);
+  assert.match(download.suggestedFilename(), /^nacre-max\.png$/);
+  await page.fill("#save-width", "9000");
+  await page.click("#save");
+  assert.match(await page.textContent("#message"), /found 9000 x 60, expected 1 to 8192/);
 });
 
 test("perspective, distance, roll and zoom", async () => {
@@ -112,9 +171,8 @@ test("the cue", async () => {
   await changes("a", () => setNumber("a", 0.5), /cue=0.5,1,0/);
   await changes("b", () => setNumber("b", 0.2), /cue=0.5,0.2,0/);
   await changes("beta0", () => setNumber("beta0", 0.3), /cue=0.5,0.2,0.3/);
-  await setNumber("a", -2);
-  await settled(page);
-  const [a, b, beta0] = (await address()).replace("cue=", "").split(",").map(Number);
+  await changes("a negative a", () => setNumber("a", -2), /cue=-2,/);
+  const [a, b, beta0] = hashNow().replace("cue=", "").split(",").map(Number);
   assert.ok(a === -2 && beta0 + b + a >= -1e-9, "beta is not negative anywhere");
   await changes("near is bright", () => page.click("#cue-near"), /cue=0.85,0.15,0/);
   await changes("no cue", () => page.click("#cue-off"), /^$/);
@@ -123,8 +181,8 @@ test("the cue", async () => {
 test("the slab", async () => {
   await changes("from", () => setNumber("slab-near", -5), /slab=-5,1000000/);
   await changes("to", () => setNumber("slab-far", 5), /slab=-5,5/);
-  await setNumber("slab-far", -20);
-  const [near, far] = (await address()).replace("slab=", "").split(",").map(Number);
+  await changes("the end that is moved", () => setNumber("slab-far", -20), /slab=-?[\d.]+,-20/);
+  const [near, far] = hashNow().replace("slab=", "").split(",").map(Number);
   assert.ok(near < far && far === -20, "the end that is moved pushes the other");
   await changes("whole volume", () => page.click("#slab-off"), /^$/);
 });
@@ -141,6 +199,7 @@ test("turning, moving, zooming and windowing with the mouse", async () => {
   await changes("drag", () => drag([0.4, 0.5], [0.6, 0.6]), /azimuth=-\d.*elevation=\d/);
   await changes("shift drag", () => drag([0.4, 0.5], [0.5, 0.5], { key: "Shift" }), /look-at=/);
   await changes("middle drag", () => drag([0.4, 0.5], [0.4, 0.6], { button: "middle" }));
+  await changes("Ctrl drag", () => drag([0.4, 0.5], [0.45, 0.45], { key: "Control" }), /display=/);
   await changes("right drag", () => drag([0.4, 0.5], [0.3, 0.4], { button: "right" }), /display=/);
   const box = await canvas();
   await page.mouse.move(box.x + 100, box.y + 100);
@@ -154,8 +213,13 @@ test("keys of the picture", async () => {
   await changes("up", () => page.keyboard.press("ArrowUp"), /elevation=-5/);
   await changes("shift arrow", () => page.keyboard.press("Shift+ArrowLeft"), /look-at/);
   await changes("plus", () => page.keyboard.press("+"), /zoom=1.1/);
+  await changes("minus", () => page.keyboard.press("-"), /^(?!.*zoom)/);
   await changes("bracket", () => page.keyboard.press("]"), /roll=5/);
+  await changes("the other bracket", () => page.keyboard.press("["), /^(?!.*roll)/);
   await changes("m", () => page.keyboard.press("m"), /mode=sum/);
+  await changes("a narrow window", () => setNumber("width", 0.5), /display=/);
+  await page.locator("#picture").focus();
+  await changes("w", () => page.keyboard.press("w"), /^(?!.*display)/);
   await changes("r", () => page.keyboard.press("r"), /^mode=sum$/);
 });
 
@@ -163,13 +227,20 @@ test("cine turns until it is stopped", async () => {
   await setNumber("cine-speed", 90);
   await changes("cine", async () => {
     await page.click("#cine");
-    await page.waitForTimeout(1500);
+    await page.waitForFunction(() => /a second|ms/.test(document.getElementById("status").textContent));
+    await page.waitForTimeout(300);
     assert.equal(await page.getAttribute("#cine", "aria-pressed"), "true");
     await page.click("#cine");
   }, /azimuth=/);
-  const stopped = await address();
-  await page.waitForTimeout(600);
-  assert.equal(await address(), stopped);
+  await page.waitForTimeout(350); // the address catches up
+  const stopped = hashNow();
+  await page.waitForTimeout(400);
+  assert.equal(hashNow(), stopped);
+  await page.locator("#picture").focus();
+  await page.keyboard.press("c");
+  assert.equal(await page.getAttribute("#cine", "aria-pressed"), "true");
+  await page.keyboard.press("c");
+  assert.equal(await page.getAttribute("#cine", "aria-pressed"), "false");
 });
 
 test("touch: one finger turns, two pinch, three set the window", async () => {
@@ -183,6 +254,8 @@ test("touch: one finger turns, two pinch, three set the window", async () => {
   };
   await changes("one finger", () => gesture([[200, 200]], [[240, 210]]), /azimuth=/);
   await changes("pinch", () => gesture([[200, 200], [260, 200]], [[170, 200], [290, 200]]), /zoom=1\.\d|zoom=2/);
+  await changes("two move", () => gesture([[200, 200], [260, 200]], [[215, 220], [275, 220]]), /look-at=/);
+  await changes("two turn", () => gesture([[200, 200], [260, 200]], [[200, 220], [260, 180]]), /roll=/);
   await changes("three", () => gesture([[100, 200], [160, 200], [220, 200]], [[130, 170], [190, 170], [250, 170]]), /display=/);
 });
 
@@ -239,11 +312,12 @@ test("help, panel and full screen", async () => {
   await page.click("#help button");
   await page.click("#panel-toggle");
   await settled(page);
-  assert.equal((await canvas()).width, 910);
+  assert.equal((await canvas()).width, size.width);
   await page.click("#panel-toggle");
   await page.click("#full-screen");
   await page.waitForFunction(() => document.fullscreenElement !== null);
-  await page.click("#full-screen");
+  await page.locator("#picture").focus();
+  await page.keyboard.press("f");
   await page.waitForFunction(() => document.fullscreenElement === null);
 });
 
@@ -252,19 +326,28 @@ test("the link of a view shows it again", async () => {
   await goTo(page, "view=left&azimuth=20&cue=0.5,0.5,0&hide=2&colormap=bone");
   await page.click("#copy-link");
   await page.waitForFunction(() => !document.getElementById("message").hidden);
-  const shown = await look(page);
-  const other = await open(browser, page.url(), { width: 910, height: 520 });
-  await page.waitForTimeout(300);
-  const box = await other.locator("#picture").boundingBox();
-  assert.equal((await page.locator("#picture").boundingBox()).width, box.width);
+  const shown = await savePicture(page, "one.png", 128, 128);
+  const other = await open(browser, await page.evaluate(() => navigator.clipboard.readText()), size);
+  assert.equal(await psnr(page, shown, await savePicture(other, "other.png", 128, 128)), Infinity);
   assert.match(await other.textContent("#command"), /--view left --azimuth 20 --cue 0.5,0.5,0 --hide 2 --colormap bone/);
-  assert.ok(shown.length > 1000);
   await other.close();
 });
 
 test("another set is opened by hand", async () => {
   await changes("open", () => page.setInputFiles("#set-file", inFolder("ball.glb")));
   assert.equal(await page.locator(".shell").count(), 2);
+  assert.match(await page.textContent("#facts"), /psnr/i, "its certificate");
+});
+
+test("a set dropped on the picture is opened", async () => {
+  const base64 = readFileSync(inFolder("angiogram.glb")).toString("base64");
+  const files = await page.evaluateHandle((text) => {
+    const data = new DataTransfer();
+    data.items.add(new File([Uint8Array.from(atob(text), (c) => c.charCodeAt(0))], "again.glb"));
+    return data;
+  }, base64);
+  await changes("drop", () => page.dispatchEvent("#stage", "drop", { dataTransfer: files }));
+  assert.equal(await page.locator(".shell").count(), 8);
 });
 
 test("every control has a name, and is reached by Tab", async () => {

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { readFileSync, statSync, writeFileSync } from "node:fs";
 import { after, test } from "node:test";
-import { address, goTo, inFolder, launch, look, makeAngiogram, nacre, open, psnr, savePicture } from "./support.mjs";
+import { address, angiogramFlags, goTo, inFolder, launch, look, makeAngiogram, nacre, open, psnr, savePicture } from "./support.mjs";
 
 const browser = await launch();
 const url = makeAngiogram();
@@ -18,7 +18,7 @@ test("without its set the page has at most 1.2 MB", () => {
 });
 
 test("build writes the page that view writes", () => {
-  nacre("build", "angiogram.nrrd", "--window", "400,1400", "--levels", "8", "--tolerance", "0.02", "-o", "built.html", "-q");
+  nacre("build", "angiogram.nrrd", ...angiogramFlags, "-o", "built.html", "-q");
   assert.equal(readFileSync(inFolder("built.html"), "utf8"), html());
 });
 

@@ -10,7 +10,7 @@ let page;
 
 before(async () => {
   writeTool();
-  page = await open(browser, makeAngiogram());
+  page = await open(browser, makeAngiogram(), { width: 800, height: 300 });
 });
 after(() => browser.close());
 
@@ -33,6 +33,7 @@ const withoutTool = [
   ["max, moved and rolled", `${turned}&roll=33&look-at=10,-5,12`],
   ["max, shells hidden", "view=left&hide=2,3,7"],
   ["sum", `mode=sum&display=0,10&${turned}`],
+  ["sum, the brightest shells, which maxima show darker", "mode=sum&display=0,0.2&hide=1,2,3,4,5,6,7"],
   ["sum, cued", `mode=sum&display=0,7&${turned}&cue=0.9,0.1,0`],
   ["sum, a slab", `mode=sum&display=0,7&${turned}&slab=-8,9`],
   ["sum, perspective and cued", `mode=sum&display=0,7&${turned}&perspective=60&cue=0.9,0.1,0`],

@@ -79,7 +79,8 @@ test("levels are added, moved and deleted while it is served", async () => {
   await page.click("#live-add");
   await page.waitForFunction(() => document.querySelectorAll(".shell").length === 4);
   await changed("added");
-  console.log(`a level took ${await page.getAttribute("#live", "data-milliseconds")} ms`);
+  await page.waitForFunction(() => document.getElementById("live").dataset.milliseconds);
+  console.log(`a level was seen after ${await page.getAttribute("#live", "data-milliseconds")} ms`);
   const field = page.locator(".shell input[type=number]").nth(2);
   assert.equal(await field.inputValue(), "0.35");
   await field.fill("0.2");
@@ -97,6 +98,31 @@ test("levels are added, moved and deleted while it is served", async () => {
   assert.deepEqual(page.problems, []);
   await page.close();
   assert.equal(await end(server, "SIGTERM"), 0);
+});
+
+test("a level to simplify is shown as it is first, then simplified, hidden or not", async () => {
+  const { server, address } = await serve("angiogram.nrrd", "--window", "400,1400", "--levels", "2", "--tolerance", "0.05");
+  const page = await open(browser, address);
+  let simplify;
+  const told = new Promise((resolve) => { simplify = resolve; });
+  await page.route((asked) => asked.search === "?emission=0.4", async (route) => {
+    await told;
+    await route.continue();
+  });
+  await page.fill("#live-emission", "0.4");
+  await page.press("#live-emission", "Enter");
+  const row = page.locator(".shell", { has: page.getByLabel("Emission of the level at 0.4") });
+  const triangles = async () => Number((await row.locator("small").last().textContent()).replace(",", ""));
+  const draft = await triangles();
+  await row.locator("input[type=checkbox]").uncheck();
+  await page.locator("#live-progress", { hasText: "Simplifying the shell at 0.4" }).waitFor();
+  simplify();
+  await page.locator("#live-progress").waitFor({ state: "hidden" });
+  assert.ok(await triangles() < draft, `${await triangles()} of ${draft} triangles`);
+  assert.equal(await row.locator("input[type=checkbox]").isChecked(), false, "still hidden");
+  assert.deepEqual(page.problems, []);
+  await page.close();
+  assert.equal(await end(server, "SIGINT"), 0);
 });
 
 test("a port that is taken gets a line", async () => {

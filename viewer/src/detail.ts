@@ -9,8 +9,9 @@ const lateFrame = 33;
 const earlyFrame = 14;
 const smallestScale = 0.5;
 const largestStride = 6;
-/** Frames of one detail before it is judged by their median. */
+/** Frames of one detail before it is judged by their median; one is enough if it is very late. */
 const judged = 3;
+const veryLateFrame = 2 * lateFrame;
 /** Pixels are what takes the time if with half of them a frame takes at most this share of it. */
 const gain = 0.8;
 
@@ -26,11 +27,17 @@ export class Detail {
   private before = 0;
   private byTriangles = false;
 
+  /** A picture at rest took so long: moving ones need not find out. */
+  accountAtRest(milliseconds: number): void {
+    const isWhole = this.scale === 1 && this.stride === 1 && this.before === 0;
+    if (!this.isFixed && isWhole && milliseconds > veryLateFrame) this.lessDetail(milliseconds);
+  }
+
   account(milliseconds: number): void {
     if (this.isFixed) return;
     this.times.push(milliseconds);
-    if (this.times.length < judged) return;
-    const median = [...this.times].sort((a, b) => a - b)[Math.floor(judged / 2)];
+    if (this.times.length < judged && milliseconds < veryLateFrame) return;
+    const median = [...this.times].sort((a, b) => a - b)[Math.floor(this.times.length / 2)];
     this.times = [];
     if (this.before > 0) this.judgeFewerPixels(median);
     else if (median > lateFrame) this.lessDetail(median);
@@ -41,7 +48,7 @@ export class Detail {
     if (median > gain * this.before) {
       this.byTriangles = true;
       this.scale = 1;
-      this.stride = 2;
+      this.fewerShells(median);
     }
     this.before = 0;
   }
@@ -51,8 +58,14 @@ export class Detail {
       this.before = median;
       this.scale = clamp(this.scale * Math.SQRT1_2, smallestScale, 1);
     } else {
-      this.stride = Math.min(this.stride + 1, largestStride);
+      this.fewerShells(median);
     }
+  }
+
+  /** As many as would be in time, if time goes with triangles. */
+  private fewerShells(milliseconds: number): void {
+    const needed = Math.ceil((this.stride * milliseconds) / lateFrame);
+    this.stride = clamp(needed, this.stride + 1, largestStride);
   }
 
   private moreDetail(): void {

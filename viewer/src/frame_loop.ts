@@ -5,6 +5,8 @@
 import { Detail } from "./detail";
 
 const restAfter = 250;
+/** Pictures while shells arrive: each waits this many times as long as the last one took. */
+const loadingWaits = 2;
 
 export class FrameLoop {
   /** Of the last frame, from its first command to its end on the graphics side, ms. */
@@ -19,6 +21,7 @@ export class FrameLoop {
   private started = 0;
   private movedAt = -Infinity;
   private restTimer = 0;
+  private loadingTimer = 0;
   private ends: number[] = [];
   /** Whether the last frame had less detail than one at rest. */
   private reduced = false;
@@ -42,10 +45,25 @@ export class FrameLoop {
     this.invalidate();
   }
 
+  /**
+   * The same, for a shell that has arrived while others are under way: drawing a picture anew with
+   * each would take longer than loading them where frames are slow.
+   */
+  invalidateLoading(): void {
+    if (this.loadingTimer !== 0) return;
+    const passed = performance.now() - this.started - this.milliseconds;
+    this.loadingTimer = window.setTimeout(() => {
+      this.loadingTimer = 0;
+      this.invalidate();
+    }, Math.max(0, loadingWaits * this.milliseconds - passed));
+  }
+
   isMoving(): boolean { return performance.now() - this.movedAt < restAfter; }
 
   /** Whether what is on the screen is the last that was asked for. */
-  isSettled(): boolean { return !this.dirty && !this.fence && !this.reduced; }
+  isSettled(): boolean {
+    return !this.dirty && !this.fence && !this.reduced && this.loadingTimer === 0;
+  }
 
   /** Of the device's pixels, in each direction. */
   scale(): number { return this.isMoving() ? this.detail.scale : 1; }
@@ -73,6 +91,8 @@ export class FrameLoop {
     this.scheduled = false;
     if (!this.dirty || this.fence) return;
     this.dirty = false;
+    clearTimeout(this.loadingTimer);
+    this.loadingTimer = 0;
     this.started = performance.now();
     this.reduced = this.scale() < 1 || this.stride() > 1;
     this.draw();
@@ -100,6 +120,7 @@ export class FrameLoop {
     this.ends = [...this.ends.filter((end) => end > now - 1000), now];
     this.rate = this.ends.length;
     if (this.isMoving()) this.detail.account(this.milliseconds);
+    else this.detail.accountAtRest(this.milliseconds);
     this.measured();
   }
 }

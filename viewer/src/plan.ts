@@ -13,7 +13,13 @@ export type Mode = "max" | "sum" | "count" | "iso";
 export type Faces = "front" | "back" | "both";
 export type PassKind = "max" | "startCounts" | "endCounts" | "sum" | "count" | "lit";
 
-export interface ShellFacts { representative: number; triangles: number; bounds: Box }
+export interface ShellFacts {
+  representative: number;
+  /** What sums show for the layer, most often the same. */
+  sumRepresentative: number;
+  triangles: number;
+  bounds: Box;
+}
 
 export interface Scene {
   center: Vec3;
@@ -81,8 +87,8 @@ function shownShells(scene: Scene, options: PictureOptions): Shown[] {
   const list: Shown[] = [];
   scene.shells.forEach((facts, index) => {
     if (options.hidden.has(index) || facts.triangles === 0) return;
-    const step = facts.representative - around;
-    around = facts.representative;
+    const step = facts.sumRepresentative - around;
+    around = facts.sumRepresentative;
     const dark = options.mode === "sum" ? step === 0
       : options.mode !== "iso" && facts.representative <= 0;
     if (dark) return;

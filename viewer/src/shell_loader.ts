@@ -41,6 +41,8 @@ export interface LoadingState { wanted: number; loaded: number; problem: string 
 export class ShellLoader {
   problem = "";
   private readonly meshes = new Map<Level, GpuMesh>();
+  /** Levels that show the mesh of another until their own is there. */
+  private readonly borrowed = new Set<Level>();
   private readonly refused = new Set<Level>();
   private queue: Level[] = [];
   private wanted: Level[] = [];
@@ -77,19 +79,39 @@ export class ShellLoader {
     };
   }
 
+  /** A level in place of another: shows its mesh until its own is decoded. */
+  replace(old: Level, by: Level): void {
+    const mesh = this.meshes.get(old);
+    this.meshes.delete(old);
+    this.forget(old);
+    if (!mesh) return;
+    this.meshes.set(by, mesh);
+    this.borrowed.add(by);
+  }
+
+  /** Whether the level shows its own shell, or has none. */
+  isSettled(level: Level): boolean {
+    return level.bytes.length === 0 || this.refused.has(level) || (this.meshes.has(level) && !this.borrowed.has(level));
+  }
+
   forget(level: Level): void {
     const mesh = this.meshes.get(level);
     if (mesh) deleteMesh(this.gl, mesh);
     this.meshes.delete(level);
     this.refused.delete(level);
+    this.borrowed.delete(level);
+    if (this.inFlight?.level === level) this.inFlight = null; // its answer is then passed over
   }
 
   /** After a lost context: nothing is there any more. */
-  forgetAll(): void { this.meshes.clear(); }
+  forgetAll(): void {
+    this.meshes.clear();
+    this.borrowed.clear();
+  }
 
   private isThere(level: Level): boolean {
     const mesh = this.meshes.get(level);
-    return mesh !== undefined && (mesh.hasNormals || !this.normals);
+    return mesh !== undefined && !this.borrowed.has(level) && (mesh.hasNormals || !this.normals);
   }
 
   private next(): void {

@@ -13,6 +13,7 @@ export interface Level {
   emission: number;
   value: number;
   representative: number;
+  sumRepresentative: number;
   triangles: number;
   vertices: number;
   /** Of positions, mm relative to the set's centre. */
@@ -94,10 +95,12 @@ function boundsOf(accessor: Json): Box {
 
 function levelOf(chunks: Chunks, level: Json, k: number): Level {
   const where = `levels[${k}]`;
+  const representative = numberOf(level?.representative, `${where}.representative`);
   const common = {
-    emission: numberOf(level?.emission, `${where}.emission`),
+    emission: numberOf(level.emission, `${where}.emission`),
     value: numberOf(level.value, `${where}.value`),
-    representative: numberOf(level.representative, `${where}.representative`),
+    representative,
+    sumRepresentative: numberOf(level.sum_representative ?? representative, `${where}.sum_representative`),
   };
   if (level.mesh === null) {
     const nowhere: Vec3 = [0, 0, 0];

@@ -24,7 +24,7 @@ export class Viewer {
   plan: Plan | null = null;
   private renderer: Renderer;
   private readonly gl: WebGL2RenderingContext;
-  private readonly listeners: Listener[] = [];
+  private listeners: Listener[] = [];
   /** The largest sum and count of the whole set, once known. */
   private readonly largest = new Map<Mode, number>();
 
@@ -43,7 +43,11 @@ export class Viewer {
     new ResizeObserver(() => this.loop.invalidate()).observe(canvas);
   }
 
-  listen(listener: Listener): void { this.listeners.push(listener); }
+  /** Tells the listener what happens, until what is returned is called. */
+  listen(listener: Listener): () => void {
+    this.listeners.push(listener);
+    return () => { this.listeners = this.listeners.filter((other) => other !== listener); };
+  }
 
   get floatTargets(): FloatTargets { return this.renderer.floatTargets; }
   get triangles(): number { return this.renderer.triangles; }
@@ -78,9 +82,10 @@ export class Viewer {
     else this.loop.invalidate();
   }
 
-  /** A list of levels that has changed: shells added, moved or gone. */
-  levelsChanged(gone: Level[]): void {
-    for (const level of gone) this.loader.forget(level);
+  /** A list of levels that has changed: one added, gone, or another in the place of an old one. */
+  levelsChanged(old: Level | null, made: Level | null): void {
+    if (old && made) this.loader.replace(old, made);
+    else if (old) this.loader.forget(old);
     this.largest.clear();
     this.tell("set");
     this.change({});
@@ -174,7 +179,9 @@ export class Viewer {
 
   private loaded(): void {
     this.tell("loading");
-    this.loop.invalidate();
+    const { wanted, loaded } = this.loader.state();
+    if (loaded < wanted) this.loop.invalidateLoading();
+    else this.loop.invalidate();
   }
 
   private restore(): void {
