@@ -85,13 +85,6 @@ std::vector<fs::path> listed_files(const fs::path& header, std::istream& lines) 
 
 }  // namespace
 
-std::string_view trimmed(std::string_view text) noexcept {
-  constexpr std::string_view blanks = " \t\r\n";
-  const std::size_t first = text.find_first_not_of(blanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
-
 std::vector<fs::path> named_data_files(const fs::path& header, std::string_view value,
                                        std::istream& lines_after) {
   value = trimmed(value);

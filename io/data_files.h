@@ -17,9 +17,6 @@ std::vector<std::filesystem::path> named_data_files(const std::filesystem::path&
                                                     std::string_view value,
                                                     std::istream& lines_after);
 
-/// Without blanks and line ends at both ends.
-std::string_view trimmed(std::string_view text) noexcept;
-
 /// Offset of the byte after `lines` line ends of a file, counted from the byte `begin`.
 /// @throws Error  BadFile if the file has fewer lines
 std::uint64_t offset_after_lines(const std::filesystem::path& path, std::uint64_t begin,

@@ -34,10 +34,16 @@ if(NACRE_WITH_ITK)
   find_package(GDCM REQUIRED)
   unset(CMAKE_MESSAGE_LOG_LEVEL)
   target_sources(nacre_io_volumes PRIVATE
-    child_process.cpp dicom_extent.cpp dicom_series.cpp dicom_slice.cpp length_unit.cpp metaimage_text.cpp metaimage_volume.cpp nrrd_text.cpp nrrd_volume.cpp)
+    child_process.cpp dicom_extent.cpp dicom_series.cpp dicom_slice.cpp gdcm_module.cpp length_unit.cpp metaimage_text.cpp metaimage_volume.cpp nrrd_text.cpp nrrd_volume.cpp)
   # After the NIfTI library's headers: ITK brings an old znzlib.h of its own.
-  target_include_directories(nacre_io_volumes SYSTEM PRIVATE ${ITK_INCLUDE_DIRS} ${GDCM_INCLUDE_DIRS})
-  target_link_libraries(nacre_io_volumes PRIVATE ${ITK_LIBRARIES} gdcmMSFF gdcmDSED gdcmCommon)
+  target_include_directories(nacre_io_volumes SYSTEM PRIVATE ${ITK_INCLUDE_DIRS})
+  target_link_libraries(nacre_io_volumes PRIVATE ${ITK_LIBRARIES} ${CMAKE_DL_LIBS})
+
+  # All that knows GDCM is a module, loaded where a DICOM file is read (see docs/decisions/023).
+  nacre_module(gdcm SOURCES gdcm_reader.cpp)
+  target_include_directories(nacre_gdcm SYSTEM PRIVATE ${GDCM_INCLUDE_DIRS})
+  target_link_libraries(nacre_gdcm PRIVATE nacre::core gdcmMSFF gdcmDSED gdcmCommon)
+  nacre_loads_module(io_volumes gdcm)
 else()
   target_sources(nacre_io_volumes PRIVATE without_itk.cpp)
 endif()

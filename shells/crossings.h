@@ -8,6 +8,8 @@
 
 namespace nacre {
 
+class GridSurface;
+
 /// How a shell and the next that is not empty meet.
 struct NeighbourCrossings {
   std::size_t outer = 0;  ///< index of the shell
@@ -19,7 +21,7 @@ struct NeighbourCrossings {
 /// Caps in the volume's border planes are left out: they lie on each other.
 ///
 /// Plain code without CGAL, cheap enough for every build; `mutual_intersections` is its independent
-/// check. Holds two surfaces at a time.
+/// check. Holds two surfaces at a time, 18 bytes a triangle.
 class CrossingCounter {
  public:
   /// @param set  its grid and its volume; its surfaces are not looked at
@@ -30,15 +32,13 @@ class CrossingCounter {
 
   /// Takes the next shell that is not empty, from the outermost inwards.
   /// @param surface  on the grid
-  /// About 0.9 microseconds of computing a triangle.
   void add(std::size_t shell, const TriangleMesh& surface);
 
   const std::vector<NeighbourCrossings>& result() const noexcept { return result_; }
 
  private:
-  class Surface;
   const ShellSet& set_;
-  std::unique_ptr<const Surface> outer_;
+  std::unique_ptr<const GridSurface> outer_;
   std::size_t outer_shell_ = 0;
   std::vector<NeighbourCrossings> result_;
 };

@@ -1,5 +1,5 @@
-# Fails if a program that draws is linked to a GL library: they are loaded at run time.
-# Run as: cmake -D OBJDUMP=<objdump> -D PROGRAM=<file> -P check_no_gl_linked.cmake
+# Fails if a program is linked to a library that is to be loaded at run time.
+# Run as: cmake -D OBJDUMP=<objdump> -D PROGRAM=<file> -D LIBRARIES=<regex> -P check_not_linked.cmake
 cmake_minimum_required(VERSION 3.25)
 
 execute_process(COMMAND ${OBJDUMP} -p ${PROGRAM} OUTPUT_VARIABLE headers COMMAND_ERROR_IS_FATAL ANY)
@@ -8,7 +8,7 @@ if(NOT needed)
   message(FATAL_ERROR "Found no needed library in ${PROGRAM}")
 endif()
 foreach(library IN LISTS needed)
-  if(library MATCHES "lib(EGL|GL|GLX|OpenGL|GLESv2|OSMesa)\\.so")
+  if(library MATCHES "lib${LIBRARIES}")
     message(FATAL_ERROR "${PROGRAM} is linked: ${library}")
   endif()
 endforeach()
