@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/error.h"
 #include "core/picture.h"
 #include "render/cpu/cpu_renderer.h"
 #include "tests/render/cpu_test_support.h"
@@ -116,7 +117,7 @@ TEST_F(CpuCuts, SlabsCutWhatOpenGlCuts) {
   for (const DepthCue& cue : kCues) {
     for (const Slab& slab : slabs(scan_.sphere.radius_mm)) {
       Difference difference;
-      for (const Camera& camera : cameras(scan_.sphere, {200, 200})) {
+      for (const Camera& camera : cameras(scan_.sphere, {120, 120})) {
         compare(camera, {.cue = cue, .slab = slab}, difference);
       }
       difference.expect_rare();
@@ -125,7 +126,7 @@ TEST_F(CpuCuts, SlabsCutWhatOpenGlCuts) {
 }
 
 TEST_F(CpuCuts, ToolsCutWhatOpenGlCutsAndLookTheSame) {
-  for (const Camera& camera : cameras(scan_.sphere, {200, 200})) {
+  for (const Camera& camera : cameras(scan_.sphere, {120, 120})) {
     for (const std::vector<Tool>& tools : tools_about(scan_.sphere, camera)) {
       set_tools(tools);
       Difference difference;
@@ -136,7 +137,7 @@ TEST_F(CpuCuts, ToolsCutWhatOpenGlCutsAndLookTheSame) {
 }
 
 TEST_F(CpuCuts, ToolsInSlabsCutWhatOpenGlCuts) {
-  for (const Camera& camera : cameras(scan_.sphere, {150, 150})) {
+  for (const Camera& camera : cameras(scan_.sphere, {120, 120})) {
     set_tools(tools_about(scan_.sphere, camera).back());
     Difference difference;
     for (const DepthCue& cue : kCues) {
@@ -156,6 +157,68 @@ TEST_F(CpuCuts, TilesJoinToThePicture) {
             difference, 50);
     difference.expect_rare();
   }
+}
+
+// A ball about the middle: where rays start inside it, at its centre, it shows; where they end
+// before it, it does not.
+TEST(CpuCutsAlone, ASlabShowsWhatLiesInIt) {
+  const ShellSet set = nested_balls(2, 40.0, 16);  // radii 40 and 20
+  const BoundingSphere sphere{{}, 60.0};
+  const Camera camera = make_camera({.size = {33, 33}}, sphere);
+  const auto middle = [&](const Slab& slab, const DepthCue& cue = {}) {
+    return draw(set, {}, camera, {.cue = cue, .slab = slab}).volume.at(16, 16);
+  };
+  EXPECT_EQ(middle({.far_mm = -41.0}), 0.0F);
+  EXPECT_EQ(middle({.far_mm = -30.0}), 0.5F);
+  EXPECT_EQ(middle({.near_mm = -5.0, .far_mm = 5.0}), 1.0F);
+  EXPECT_EQ(middle({.near_mm = 25.0}), 0.5F);
+  EXPECT_EQ(middle({.near_mm = 41.0}), 0.0F);
+  // z = (60 - d) / 120: the cue's brightest end of the slab, wholly within both balls.
+  EXPECT_NEAR(middle({.near_mm = -6.0, .far_mm = 6.0}, {.a = 1.0, .b = 0.0}), 0.55F, 1e-6F);
+  EXPECT_NEAR(middle({.near_mm = -6.0, .far_mm = 6.0}, {.a = -1.0, .b = 1.0}), 0.55F, 1e-6F);
+}
+
+// Its light falls with the cosine; its depth takes the cue; what is behind it does not show.
+TEST(CpuCutsAlone, AToolIsLitAndHidesWhatIsBehind) {
+  const ShellSet set = nested_balls(2, 40.0, 16);
+  const BoundingSphere sphere{{}, 60.0};
+  const Camera camera = make_camera({.size = {65, 65}}, sphere);
+  const Tool ball = tool_of(ball_mesh({}, 5.0, 200), camera.forward * -30.0, {0.5F, 1.0F, 0.25F});
+  const Picture picture = draw(set, {&ball, 1}, camera, {.cue = {.a = 1.0, .b = 0.0}});
+  ASSERT_TRUE(picture.tools);
+  const double pixel_mm = 120.0 / 65.0;
+  for (const int x : {32, 33, 34}) {
+    const double aside = pixel_mm * (x - 32);
+    const double cosine = std::sqrt(1.0 - aside * aside / 25.0);
+    const double z = (60.0 + 30.0 + 5.0 * cosine) / 120.0;
+    const std::size_t at = static_cast<std::size_t>(x + 65 * 32);
+    EXPECT_EQ(picture.tools->covered[at], 1);
+    EXPECT_NEAR(picture.tools->colors[at].y, headlight(cosine) * z, 0.01);
+    EXPECT_NEAR(picture.tools->colors[at].x, 0.5 * headlight(cosine) * z, 0.01);
+    // Only the outer ball's front lies before it, 40 mm from the middle: half of z = 5 / 6.
+    EXPECT_NEAR(picture.volume.pixels[at], 0.5 * 100.0 / 120.0, 0.002);
+  }
+  EXPECT_EQ(picture.tools->covered[36 + 65 * 32], 0);
+}
+
+TEST(CpuCutsAlone, ToolsBehindTheEyeAreNotSeen) {
+  const ShellSet set = nested_balls(2, 40.0, 16);
+  const BoundingSphere sphere{{}, 60.0};
+  const Camera camera =
+      make_camera({.size = {32, 32}, .field_of_view_rad = 1.0, .distance_mm = 100.0}, sphere);
+  const Tool ball = tool_of(ball_mesh({}, 5.0, 20), camera.forward * -120.0, {1.0F, 1.0F, 1.0F});
+  const Picture picture = draw(set, {&ball, 1}, camera, {});
+  EXPECT_FALSE(picture.tools);
+  EXPECT_EQ(picture.volume.pixels, draw(set, {}, camera, {}).volume.pixels);
+}
+
+TEST(CpuCutsAlone, RefuseToolsByPasses) {
+  const ShellSet set = nested_balls(2, 40.0, 16);
+  const BoundingSphere sphere{{}, 60.0};
+  const Camera camera = make_camera({.size = {16, 16}}, sphere);
+  const Tool ball = tool_of(ball_mesh({}, 5.0, 8), {}, {1.0F, 1.0F, 1.0F});
+  EXPECT_THROW(draw(set, {&ball, 1}, camera, {.occlusion = Occlusion::Passes}), Error);
+  EXPECT_NO_THROW(draw(set, {&ball, 1}, camera, {.occlusion = Occlusion::Texture}));
 }
 
 TEST(CpuCutsAlone, AreTheSameForAllThreadsAndInstructions) {
