@@ -24,6 +24,7 @@
 #include "datasets/phantom.h"
 #include "extract/levels.h"
 #include "extract/marching_cubes.h"
+#include "io/tool_reader.h"
 #include "io/volume_reader.h"
 #include "reference/exact_picture.h"
 #include "render/cpu/cpu_renderer.h"
@@ -84,6 +85,7 @@ class LoadedScene {
 
   const Camera& camera(int view) const { return cameras_[static_cast<std::size_t>(view)]; }
   const ExactWalk& walk() const { return walk_; }
+  const BoundingSphere& sphere() const { return sphere_; }
 
  private:
   static Volume phantom(std::int64_t side) {
@@ -165,6 +167,36 @@ void exact_frames(benchmark::State& state, const Scene& scene) {
          [&](const Camera& camera) { return exact_picture(data.walk(), camera).volume; });
 }
 
+/// What of the scene shows: all of it, a slab of a third, or what a scalpel leaves of it.
+struct Cut {
+  std::string name;
+  RenderOptions options;
+  bool tool = false;
+};
+
+/// A surgical tool across the middle of the scene.
+Tool scalpel(const LoadedScene& scene) {
+  Tool tool =
+      read_tool(std::filesystem::path(std::getenv("NACRE_TEST_DATA")) / "tools" / "scalpel.stl");
+  tool.world_from_tool[3] = glm::dvec4(scene.sphere().center_mm - glm::dvec3(0, 20, -10), 1.0);
+  return tool;
+}
+
+/// Frames without their errors: those of both renderers are equal.
+template <class Renderer>
+void cut_frames(benchmark::State& state, const Scene& scene, const Cut& cut, Renderer& renderer) {
+  LoadedScene& data = loaded(scene);
+  renderer.upload(data.shells(24));
+  if (cut.tool) {
+    const Tool tool = scalpel(data);
+    renderer.upload_tools({&tool, 1});
+  }
+  int view = 0;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(renderer.render(data.camera(view++ % kViews), cut.options));
+  }
+}
+
 void register_bench(const std::string& name, const std::function<void(benchmark::State&)>& run) {
   benchmark::RegisterBenchmark(name.c_str(), run)
       ->Unit(benchmark::kMillisecond)
@@ -182,6 +214,26 @@ void register_scene(const Scene& scene) {
     }
     register_bench(shells + "/osmesa",
                    [=](auto& state) { gl_frames(state, scene, levels, Backend::OsMesa); });
+  }
+}
+
+void register_cuts(const Scene& scene) {
+  const Slab slab{.near_mm = -20.0, .far_mm = 15.0};
+  const DepthCue cue{.a = 0.8, .b = 0.2};
+  const std::vector<Cut> cuts{{"whole", {}},
+                              {"slab", {.slab = slab}},
+                              {"tool", {}, true},
+                              {"tool, slab, cue", {.cue = cue, .slab = slab}, true}};
+  for (const Cut& cut : cuts) {
+    const std::string name = scene.name + "/cut:" + cut.name;
+    register_bench(name + "/cpu", [=](benchmark::State& state) {
+      CpuRenderer renderer;
+      cut_frames(state, scene, cut, renderer);
+    });
+    register_bench(name + "/osmesa", [=](benchmark::State& state) {
+      GlRenderer renderer(Backend::OsMesa);
+      cut_frames(state, scene, cut, renderer);
+    });
   }
 }
 
@@ -205,6 +257,7 @@ int main(int argc, char** argv) {
     nacre::register_scene({"chris_MRA", "chris_MRA.nii.gz", 20.0, 230.0});
     nacre::register_scene({"aneurism", "aneurism_256_uint8.nrrd", 20.0, 250.0});
     nacre::register_scene({"MR_Gd", "MR_Gd.nii.gz", 648.0, 1556.0});
+    nacre::register_cuts({"chris_MRA", "chris_MRA.nii.gz", 20.0, 230.0});
   }
   nacre::register_growing();
   benchmark::Initialize(&argc, argv);

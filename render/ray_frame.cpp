@@ -37,4 +37,14 @@ RayFrame ray_frame(const Camera& camera, const glm::dvec3& origin_mm, const RayS
   return frame;
 }
 
+double cue_at_depth(const RayFrame& rays, double depth_mm) noexcept {
+  return std::clamp(rays.cue.x + rays.cue.y * depth_mm, rays.cue_range.x, rays.cue_range.y);
+}
+
+glm::dvec3 local_way(const RayFrame& rays, const glm::dvec2& pixel) noexcept {
+  const glm::dvec4& slope = rays.slope_of_pixel;
+  return rays.local_from_view *
+         glm::dvec3(slope.x + slope.z * pixel.x, slope.y + slope.w * pixel.y, 1.0);
+}
+
 }  // namespace nacre

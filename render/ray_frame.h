@@ -49,6 +49,14 @@ struct RayFrame {
 RayFrame ray_frame(const Camera& camera, const glm::dvec3& origin_mm, const RaySpan& rays,
                    const DepthCue& cue, const PixelRect& rect);
 
+/// beta where a ray is that deep beyond its start.
+double cue_at_depth(const RayFrame& rays, double depth_mm) noexcept;
+
+/// The way of a pixel's ray in the frame of local positions, 1 forward.
+///
+/// @param pixel  its centre, from the corner of the rectangle drawn: (0.5, 0.5) for the first
+glm::dvec3 local_way(const RayFrame& rays, const glm::dvec2& pixel) noexcept;
+
 /// Depth z at a view depth: 1 at the sphere's nearest point, 0 at its farthest.
 double z_at_view_depth(const Camera& camera, double view_depth_mm);
 

@@ -23,19 +23,35 @@ inline constexpr float kKernelSide = 126.0F;
 /// Largest target side: rounding to sub-pixels is exact for coordinates below 2^22 of them.
 inline constexpr int kMaxKernelTarget = 8192;
 
-/// How positions become pixels of a target, in floats as GL has it.
+/// How positions become pixels of a target, in floats as GL has it. Their depth, mm along the
+/// viewing direction, is w in perspective, whose inverse is linear over the pixels of a triangle.
 struct ClusterProjection {
   glm::vec4 row_x{0.0F};  ///< rows of `clip_from_local`
   glm::vec4 row_y{0.0F};
   glm::vec4 row_w{0.0F};
-  glm::vec4 row_z{0.0F};      ///< depth z as in `depth_z`; without perspective only
-  glm::vec2 z_of_w{0.0F};     ///< z = x + y w; perspective only
-  glm::vec3 view_from{0.0F};  ///< viewing direction, or the eye (perspective), local
-  float near_mm = 0.0F;       ///< of the near plane; perspective only
+  glm::vec4 row_depth{0.0F};   ///< depth beyond the start of the rays; without perspective only
+  glm::vec2 z_of_depth{0.0F};  ///< z = x + y depth, as in `depth_z`
+  float start_mm = 0.0F;       ///< depth where rays start: 0 without perspective
+  glm::vec3 view_from{0.0F};   ///< viewing direction, or the eye (perspective), local
+  float near_mm = 0.0F;        ///< of the near plane; perspective only
   bool perspective = false;
 };
 
-/// Pixels of one thread: the greatest brightness seen in each.
+/// Where the rays of a target's pixels end.
+struct RayEnds {
+  const float* of_pixels_mm = nullptr;  ///< beyond the start of the rays
+  float least_mm = 0.0F;                ///< of them
+  float greatest_mm = 0.0F;
+};
+
+/// What the pixels of a target hold, of all that was drawn:
+///
+/// - bytes and words: the greatest rank;
+/// - floats: the greatest emission;
+/// - std::int32_t: a number of shells: back minus front faces beyond the ends of rays;
+/// - std::uint64_t: the nearest triangle, as `key_of` makes it.
+///
+/// All start at 0. What is drawn in several targets is merged by the maximum; numbers are added.
 template <class Pixel>
 struct PixelTarget {
   Pixel* pixels = nullptr;
@@ -43,7 +59,7 @@ struct PixelTarget {
   int height = 0;
 };
 
-/// What a shell shines with: a rank, the same everywhere, ...
+/// What a shell puts into pixels: a rank, the same everywhere, ...
 template <class Pixel>
 struct Brightness {
   Pixel rank = 0;
@@ -56,6 +72,25 @@ struct Brightness<float> {
   float at_far = 0.0F;
 };
 
+/// ... or 1 for back faces, -1 for front faces ...
+template <>
+struct Brightness<std::int32_t> {};
+
+/// ... or which triangle it is: this number plus its place among the corners of its mesh.
+template <>
+struct Brightness<std::uint64_t> {
+  std::uint32_t first_triangle = 0;
+};
+
+/// A pixel that holds a triangle and its depth beyond the start of the ray: the greater, the
+/// nearer, and of those at one depth, the one with the least number. Never 0 for a finite depth.
+struct NearestKey {
+  float depth_mm = 0.0F;
+  std::uint32_t triangle = 0;
+};
+std::uint64_t key_of(const NearestKey& nearest) noexcept;
+NearestKey nearest_of(std::uint64_t key) noexcept;
+
 /// Some clusters of one shell, to be drawn alike.
 template <class Pixel>
 struct ClusterDraw {
@@ -65,6 +100,9 @@ struct ClusterDraw {
   const std::uint8_t* corners = nullptr;
   Faces faces = Faces::Front;
   Brightness<Pixel> brightness;
+  /// Ranks and emissions show between start and end of rays only, if there are any; numbers of
+  /// shells need them.
+  const RayEnds* ends = nullptr;
 };
 
 /// What a kernel left, and what it did.
@@ -76,8 +114,8 @@ struct KernelResult {
 /// Draws clusters: rejects what is outside the target or turned away, projects, rounds to
 /// sub-pixels, and covers the pixel centres inside each triangle, those on its upper and left edges
 /// included. All in integers after rounding: triangles that share an edge cover no centre on it
-/// twice, and none is left out. Pixels are bytes, words (ranks) or floats (emission with a cue, at
-/// the depth of the pixel's centre on the triangle's plane).
+/// twice, and none is left out. Depths are those of the pixel's centre on the
+/// triangle's plane.
 ///
 /// Clusters that reach the near plane or are larger than `kKernelSide` are not drawn but listed.
 ///
@@ -88,14 +126,14 @@ using DrawClusters = KernelResult (*)(const ClusterDraw<Pixel>& draw,
                                       const PixelTarget<Pixel>& target, std::uint32_t* too_large);
 
 /// The kernel for a set.
+/// @tparam Pixel  what targets can hold, see `PixelTarget`
 /// @pre  the processor has it
 template <class Pixel>
 DrawClusters<Pixel> draw_clusters_for(InstructionSet set) noexcept;
-template <>
-DrawClusters<std::uint8_t> draw_clusters_for(InstructionSet set) noexcept;
-template <>
-DrawClusters<std::uint16_t> draw_clusters_for(InstructionSet set) noexcept;
-template <>
-DrawClusters<float> draw_clusters_for(InstructionSet set) noexcept;
+extern template DrawClusters<std::uint8_t> draw_clusters_for(InstructionSet set) noexcept;
+extern template DrawClusters<std::uint16_t> draw_clusters_for(InstructionSet set) noexcept;
+extern template DrawClusters<float> draw_clusters_for(InstructionSet set) noexcept;
+extern template DrawClusters<std::int32_t> draw_clusters_for(InstructionSet set) noexcept;
+extern template DrawClusters<std::uint64_t> draw_clusters_for(InstructionSet set) noexcept;
 
 }  // namespace nacre

@@ -22,30 +22,57 @@ inline Floats gather_depths(const float* depths, const std::uint8_t* corners,
 }
 
 /// @param swap  lanes whose second and third corners were exchanged
-template <class Pixel>
-Shade<Pixel> shade_of(const ClusterDraw<Pixel>& draw, const ClusterProjection& projection,
-                      const PixelVertices& vertices, const CornerArrays& corners,
-                      const std::uint8_t* list, const Ints& swap) {
-  if constexpr (kCued<Pixel>) {
+template <bool kDepth>
+CornerDepths<kDepth> corner_depths(bool perspective, const PixelVertices& vertices,
+                                   const CornerArrays& corners, const std::uint8_t* list,
+                                   const Ints& swap) {
+  if constexpr (kDepth) {
     const Floats a = gather_depths(vertices.depth, corners.first, list);
     const Floats b = gather_depths(vertices.depth, corners.second, list);
     const Floats c = gather_depths(vertices.depth, corners.third, list);
-    return {{swap ? b : c, a, swap ? c : b},
-            projection.z_of_w,
-            projection.perspective,
-            draw.brightness};
+    return {{swap ? b : c, a, swap ? c : b}, perspective};
+  } else {
+    return {};
+  }
+}
+
+inline Ints listed_numbers(const std::uint8_t* list) {
+  Ints numbers;
+  for (int i = 0; i < kLanes; ++i) numbers[i] = list[i];
+  return numbers;
+}
+
+/// @param swap  front faces, where both faces are drawn
+template <class Pixel>
+Source<Pixel> source_of(const ClusterDraw<Pixel>& draw, const ClusterProjection& projection,
+                        const Cluster& cluster, const std::uint8_t* list, const Ints& swap) {
+  if constexpr (kCounts<Pixel>) {
+    return {1 + 2 * swap};
+  } else if constexpr (sizeof(Pixel) == sizeof(std::uint64_t)) {
+    const std::uint32_t first = draw.brightness.first_triangle + cluster.first_corner / 3;
+    return {projection.start_mm, ~(listed_numbers(list) + static_cast<std::int32_t>(first))};
+  } else if constexpr (kDeep<Pixel>) {
+    return {projection.z_of_depth, draw.brightness};
   } else {
     return {draw.brightness.rank};
   }
 }
 
-template <class Pixel>
+/// What of the target lies right of and below a cluster's origin.
+template <class Pixel, bool kCut>
+Canvas<Pixel, kCut> canvas_at(const ClusterDraw<Pixel>& draw, const PixelTarget<Pixel>& target,
+                              const PixelVertices& vertices) {
+  const Canvas<Pixel, kCut> whole{target.pixels, kCut ? draw.ends->of_pixels_mm : nullptr};
+  return whole.at(static_cast<std::ptrdiff_t>(vertices.origin_y) * target.width +
+                  vertices.origin_x);
+}
+
+template <bool kCut, class Pixel>
 void draw_triangles(const Kernel<Pixel>& kernel, const ClusterDraw<Pixel>& draw,
                     const Cluster& cluster, const PixelVertices& vertices) {
   const Clip clip = clip_of(kernel, vertices);
-  const int stride = kernel.target.width;
-  Pixel* origin = kernel.target.pixels + static_cast<std::ptrdiff_t>(vertices.origin_y) * stride +
-                  vertices.origin_x;
+  const ClusterProjection& projection = kernel.projection;
+  const auto origin = canvas_at<Pixel, kCut>(draw, kernel.target, vertices);
   const std::uint8_t* first = draw.corners + cluster.first_corner;
   const int count = cluster.triangles;
   // Front faces are counter-clockwise, which has a negative area where y points down.
@@ -59,9 +86,30 @@ void draw_triangles(const Kernel<Pixel>& kernel, const ClusterDraw<Pixel>& draw,
   for (int i = 0; i < listed; i += kLanes) {
     Triangles triangles = gather_listed(vertices.xy, corners, list + i);
     const Ints swap = orient(triangles, both_faces).swapped;
-    cover(triangles, listed - i, clip, origin, stride,
-          shade_of(draw, kernel.projection, vertices, corners, list + i, swap));
+    const Shade<Pixel, kCut> shade{
+        corner_depths < kCut ||
+            kDeep < Pixel >> (projection.perspective, vertices, corners, list + i, swap),
+        source_of(draw, projection, cluster, list + i, swap), projection.start_mm};
+    cover(triangles, listed - i, clip, origin, kernel.target.width, shade);
   }
+}
+
+/// False if the cluster is too large.
+template <bool kCut, class Pixel>
+bool draw_cluster(const Kernel<Pixel>& kernel, const ClusterDraw<Pixel>& draw,
+                  const Cluster& cluster, PixelVertices& vertices) {
+  const float* positions = draw.positions + cluster.first_position;
+  if (!project < kCut || kDeep < Pixel >> (kernel, positions, cluster.vertices, vertices))
+    return false;
+  draw_triangles<kCut>(kernel, draw, cluster, vertices);
+  return true;
+}
+
+template <class Pixel>
+bool cannot_show(const Kernel<Pixel>& kernel, Faces faces, const Cluster& cluster) {
+  return outside(kernel, cluster) ||
+         (faces == Faces::Front && turned_away(kernel, cluster, 1.0F)) ||
+         (faces == Faces::Back && turned_away(kernel, cluster, -1.0F));
 }
 
 template <class Pixel>
@@ -72,26 +120,33 @@ KernelResult draw_clusters(const ClusterDraw<Pixel>& draw, const ClusterProjecti
   PixelVertices vertices;
   for (std::size_t i = 0; i < draw.count; ++i) {
     const Cluster& cluster = draw.clusters[i];
-    if (outside(kernel, cluster)) continue;
-    if (draw.faces == Faces::Front && turned_away(kernel, cluster, 1.0F)) continue;
-    if (draw.faces == Faces::Back && turned_away(kernel, cluster, -1.0F)) continue;
+    if (cannot_show(kernel, draw.faces, cluster)) continue;
     const Reach reach = near_plane(kernel, cluster);
     if (reach == Reach::Behind) continue;
+    const Part part = part_of(kernel, draw.ends, cluster);
+    if (part == Part::None) continue;
     result.triangles += cluster.triangles;
-    if (reach == Reach::Beyond &&
-        project(kernel, draw.positions + cluster.first_position, cluster.vertices, vertices)) {
-      draw_triangles(kernel, draw, cluster, vertices);
-    } else {
-      too_large[result.too_large++] = static_cast<std::uint32_t>(i);
+    bool drawn = false;
+    if (reach == Reach::Beyond) {
+      drawn = part == Part::All ? draw_cluster<kCounts<Pixel>>(kernel, draw, cluster, vertices)
+                                : draw_cluster<true>(kernel, draw, cluster, vertices);
     }
+    if (!drawn) too_large[result.too_large++] = static_cast<std::uint32_t>(i);
   }
   return result;
 }
 
 }  // namespace
 
-DrawClusters<std::uint8_t> draw_clusters_8() noexcept { return &draw_clusters<std::uint8_t>; }
-DrawClusters<std::uint16_t> draw_clusters_16() noexcept { return &draw_clusters<std::uint16_t>; }
-DrawClusters<float> draw_clusters_cued() noexcept { return &draw_clusters<float>; }
+template <class Pixel>
+DrawClusters<Pixel> draw_clusters_of() noexcept {
+  return &draw_clusters<Pixel>;
+}
+
+template DrawClusters<std::uint8_t> draw_clusters_of() noexcept;
+template DrawClusters<std::uint16_t> draw_clusters_of() noexcept;
+template DrawClusters<float> draw_clusters_of() noexcept;
+template DrawClusters<std::int32_t> draw_clusters_of() noexcept;
+template DrawClusters<std::uint64_t> draw_clusters_of() noexcept;
 
 }  // namespace nacre::NACRE_KERNEL

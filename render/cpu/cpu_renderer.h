@@ -23,7 +23,7 @@ struct CpuOptions {
 };
 
 /// Why `CpuRenderer` does not draw the pictures of this plan; nothing if it does. It draws maximum
-/// projections, with and without a cue, of whole volumes without tools.
+/// projections; tools by texture, not by passes.
 std::optional<std::string> cpu_objection(const Plan& plan);
 
 /// Draws maximum projections of shell sets on the processor, without OpenGL.
@@ -52,8 +52,6 @@ class CpuRenderer : public ShellRenderer {
   void upload(const ShellSet& set, const SceneFacts& facts, std::span<const std::uint32_t> shells,
               const UploadOptions& options = {}) override;
 
-  /// Takes none, and that only to be used as other renderers are.
-  /// @throws Error  Unsupported if there are any
   void upload_tools(std::span<const Tool> tools) override;
 
   std::size_t uploaded_bytes() const noexcept override;

@@ -3,74 +3,168 @@
 namespace nacre::NACRE_KERNEL {
 namespace {
 
-template <class Pixel>
-inline void raise(Pixel& pixel, Pixel value) {
-  pixel = pixel < value ? value : pixel;
-}
+/// Depths of the lanes' triangles at their three corners; nothing where depth does not matter.
+template <bool kDepth>
+struct CornerDepths {
+  Floats at(const Edges&, const Ints&, const Ints&, const Ints&) const { return Floats{}; }
+  CornerDepths of_lane(int) const { return {}; }
+};
 
-/// The brightness of a shell's pixels: its rank.
+template <>
+struct CornerDepths<true> {
+  Floats corner[3];  // opposite to edges 0, 1 and 2; see `PixelVertices::depth`
+  bool perspective;
+
+  /// From the corners, weighed by the edges opposite to them.
+  Floats at(const Edges& edges, const Ints& value0, const Ints& value1, const Ints& value2) const {
+    // Without the bias they add up to twice the area, which is 1 at least.
+    const Floats weight0 = __builtin_convertvector(value0 - edges.bias[0], Floats);
+    const Floats weight1 = __builtin_convertvector(value1 - edges.bias[1], Floats);
+    const Floats weight2 = __builtin_convertvector(value2 - edges.bias[2], Floats);
+    const Floats sum = weight0 + weight1 + weight2;
+    const Floats weighed = weight0 * corner[0] + weight1 * corner[1] + weight2 * corner[2];
+    return perspective ? sum / weighed : weighed / sum;
+  }
+
+  /// The same for one lane's triangle in all lanes.
+  CornerDepths of_lane(int lane) const {
+    CornerDepths depths = *this;
+    for (int k = 0; k < 3; ++k) depths.corner[k] = Floats{} + corner[k][lane];
+    return depths;
+  }
+};
+
+/// What lanes put into pixels at a depth: the rank of a shell ...
 template <class Pixel>
-struct Shade {
+struct Source {
   Pixel rank;
 
   struct Lanes {
     Pixel rank;
     Pixel operator[](int) const { return rank; }
   };
-  Lanes at(const Edges&, const Ints&, const Ints&, const Ints&) const { return {rank}; }
-  Shade of_lane(int) const { return *this; }
+  Lanes at(const Floats&) const { return {rank}; }
+  Source of_lane(int) const { return *this; }
 };
 
-/// With a cue: from the depths of the three corners, weighed by the edges opposite to them.
+/// ... or its emission under a cue ...
 template <>
-struct Shade<float> {
-  Floats depth[3];  // of the corners opposite to edges 0, 1 and 2
-  glm::vec2 z_of_w;
-  bool perspective;
+struct Source<float> {
+  glm::vec2 z_of_depth;
   Brightness<float> brightness;
 
-  Floats at(const Edges& edges, const Ints& value0, const Ints& value1, const Ints& value2) const {
-    // Without the bias they add up to twice the area, which is 1 at least.
-    const Floats weight0 = __builtin_convertvector(value0 - edges.bias[0], Floats);
-    const Floats weight1 = __builtin_convertvector(value1 - edges.bias[1], Floats);
-    const Floats weight2 = __builtin_convertvector(value2 - edges.bias[2], Floats);
-    const Floats mean = (weight0 * depth[0] + weight1 * depth[1] + weight2 * depth[2]) /
-                        (weight0 + weight1 + weight2);
-    const Floats z = perspective ? z_of_w.x + z_of_w.y / mean : mean;
+  Floats at(const Floats& depth) const {
+    const Floats z = z_of_depth.x + z_of_depth.y * depth;
     const Floats inside = least(greatest(z, Floats{}), Floats{} + 1.0F);
     return brightness.at_far + (brightness.at_near - brightness.at_far) * inside;
   }
+  Source of_lane(int) const { return *this; }
+};
 
-  /// The same for one lane's triangle in all lanes.
-  Shade of_lane(int lane) const {
-    Shade shade = *this;
-    for (int k = 0; k < 3; ++k) shade.depth[k] = Floats{} + depth[k][lane];
-    return shade;
+/// ... or the side on which it is crossed ...
+template <>
+struct Source<std::int32_t> {
+  Ints leaving;  // 1: a back face, -1: a front face
+
+  Ints at(const Floats&) const { return leaving; }
+  Source of_lane(int lane) const { return {Ints{} + leaving[lane]}; }
+};
+
+/// ... or a triangle and its depth, as in `key_of`.
+template <>
+struct Source<std::uint64_t> {
+  float start_mm;
+  Ints numbers;  // complements
+
+  struct Lanes {
+    Ints nearness;
+    Ints numbers;
+    std::uint64_t operator[](int lane) const {
+      return std::uint64_t{static_cast<std::uint32_t>(nearness[lane])} << 32U |
+             static_cast<std::uint32_t>(numbers[lane]);
+    }
+  };
+  Lanes at(const Floats& depth) const {
+    const Ints bits = bits_as<Ints>(depth - start_mm);
+    const Ints sign = Ints{} + static_cast<std::int32_t>(0x80000000);
+    const Ints ordered = bits ^ ((bits >> 31) | sign);
+    return {~ordered, numbers};
   }
+  Source of_lane(int lane) const { return {start_mm, Ints{} + numbers[lane]}; }
+};
+
+/// Pixels, and where their rays end.
+template <class Pixel, bool kCut>
+struct Canvas {
+  Pixel* pixels;
+  const float* ends_mm;
+
+  Canvas at(std::ptrdiff_t offset) const {
+    if constexpr (kCut) return {pixels + offset, ends_mm + offset};
+    return {pixels + offset, nullptr};
+  }
+};
+
+/// What lanes put into pixels, one each. 0 changes nothing.
+template <class Pixel, bool kCut>
+struct Fragments {
+  decltype(Source<Pixel>{}.at(Floats{})) values;
+  Floats depth_mm;  // beyond the start of the ray, where rays are cut
+
+  void put(const Canvas<Pixel, kCut>& canvas, std::ptrdiff_t offset, int lane) const {
+    Pixel value = values[lane];
+    if constexpr (kCut) {
+      const float depth = depth_mm[lane];
+      const float end = canvas.ends_mm[offset];
+      const bool shows = kCounts<Pixel> ? depth > end : depth >= 0.0F && depth <= end;
+      value = shows ? value : Pixel{0};
+    }
+    Pixel& pixel = canvas.pixels[offset];
+    if constexpr (kCounts<Pixel>) {
+      pixel += value;
+    } else {
+      pixel = pixel < value ? value : pixel;
+    }
+  }
+};
+
+/// What triangles put into pixels.
+template <class Pixel, bool kCut>
+struct Shade {
+  CornerDepths<kCut || kDeep<Pixel>> depths;
+  Source<Pixel> source;
+  float start_mm;
+
+  Fragments<Pixel, kCut> at(const Edges& edges, const Ints& value0, const Ints& value1,
+                            const Ints& value2) const {
+    const Floats depth = depths.at(edges, value0, value1, value2);
+    return {source.at(depth), depth - start_mm};
+  }
+  Shade of_lane(int lane) const { return {depths.of_lane(lane), source.of_lane(lane), start_mm}; }
 };
 
 /// Up to this side, triangles are walked side by side, one a lane; larger ones one by one.
 constexpr int kSmallSide = 4;
 
 /// Covers small triangles: all lanes step through the largest of their rectangles together.
-template <class Pixel>
+template <class Pixel, bool kCut>
 void cover_small(Edges edges, const Ints& columns, const Ints& rows, const std::int32_t* offsets,
-                 int most_columns, int most_rows, Pixel* origin, std::ptrdiff_t stride,
-                 const Shade<Pixel>& shade) {
+                 int most_columns, int most_rows, const Canvas<Pixel, kCut>& origin,
+                 std::ptrdiff_t stride, const Shade<Pixel, kCut>& shade) {
   for (int y = 0;; ++y) {
     Ints value0 = edges.value[0];
     Ints value1 = edges.value[1];
     Ints value2 = edges.value[2];
     const Ints beyond_row = rows - y;
-    Pixel* row = origin + y * stride;
+    const Canvas<Pixel, kCut> row = origin.at(y * stride);
     for (int x = 0;; ++x) {
       unsigned hit = (1U << kLanes) - 1;
       hit &= ~sign_bits(value0 | value1 | value2 | (columns - x) | beyond_row);
       if (hit != 0) {
-        const auto values = shade.at(edges, value0, value1, value2);
+        const auto fragments = shade.at(edges, value0, value1, value2);
         for (; hit != 0; hit &= hit - 1) {
           const int lane = __builtin_ctz(hit);
-          raise<Pixel>(row[offsets[lane] + x], values[lane]);
+          fragments.put(row, offsets[lane] + x, lane);
         }
       }
       if (x == most_columns) break;
@@ -103,25 +197,25 @@ inline Edges side_by_side(const Edges& edges, int lane) {
 }
 
 /// Covers one triangle, pixels side by side.
-template <class Pixel>
-void cover_large(Edges edges, int columns, int rows, Pixel* first, std::ptrdiff_t stride,
-                 const Shade<Pixel>& shade) {
+template <class Pixel, bool kCut>
+void cover_large(Edges edges, int columns, int rows, const Canvas<Pixel, kCut>& first,
+                 std::ptrdiff_t stride, const Shade<Pixel, kCut>& shade) {
   for (int y = 0; y <= rows; ++y) {
     Ints value0 = edges.value[0];
     Ints value1 = edges.value[1];
     Ints value2 = edges.value[2];
-    Pixel* row = first + y * stride;
+    const Canvas<Pixel, kCut> row = first.at(y * stride);
     for (int x = 0; x <= columns; x += kLanes) {
       const Ints left = columns - x - lane_numbers();
       unsigned hit = (1U << kLanes) - 1;
       hit &= ~sign_bits(value0 | value1 | value2 | left);
-      const auto values = shade.at(edges, value0, value1, value2);
+      const auto fragments = shade.at(edges, value0, value1, value2);
       if (hit == (1U << kLanes) - 1) {
-        for (int i = 0; i < kLanes; ++i) raise<Pixel>(row[x + i], values[i]);
+        for (int i = 0; i < kLanes; ++i) fragments.put(row, x + i, i);
       } else {
         for (; hit != 0; hit &= hit - 1) {
           const int i = __builtin_ctz(hit);
-          raise<Pixel>(row[x + i], values[i]);
+          fragments.put(row, x + i, i);
         }
       }
       value0 += edges.step_x[0];
@@ -139,9 +233,9 @@ inline int greatest_lane(const Ints& v) {
 }
 
 /// Covers the first `used` of the lanes' triangles, which are oriented.
-template <class Pixel>
-void cover(const Triangles& triangles, int used, const Clip& clip, Pixel* origin, int stride,
-           const Shade<Pixel>& shade) {
+template <class Pixel, bool kCut>
+void cover(const Triangles& triangles, int used, const Clip& clip,
+           const Canvas<Pixel, kCut>& origin, int stride, const Shade<Pixel, kCut>& shade) {
   const Centers centers = centers_of(triangles, clip);
   const Edges edges = edges_of(triangles, centers.first);
   const Ints size = bits_as<Ints>(centers.last - centers.first);
@@ -160,8 +254,8 @@ void cover(const Triangles& triangles, int used, const Clip& clip, Pixel* origin
   }
   for (unsigned larges = sign_bits(large); larges != 0; larges &= larges - 1) {
     const int lane = __builtin_ctz(larges);
-    cover_large<Pixel>(side_by_side(edges, lane), columns[lane], rows[lane], origin + offsets[lane],
-                       stride, shade.of_lane(lane));
+    cover_large(side_by_side(edges, lane), columns[lane], rows[lane], origin.at(offsets[lane]),
+                stride, shade.of_lane(lane));
   }
 }
 

@@ -88,22 +88,59 @@ Reach near_plane(const Kernel<Pixel>& kernel, const Cluster& cluster) {
   return middle - reach > kernel.projection.near_mm ? Reach::Beyond : Reach::Crosses;
 }
 
-/// Whether pixels hold emission that depends on depth.
+/// What part of a cluster lies between the start and end of rays.
+enum class Part { None, Some, All };
+
+struct Extent {
+  float lo, hi;
+};
+
+/// Depths of a cluster, beyond the start of the rays.
 template <class Pixel>
-constexpr bool kCued = false;
+Extent depths_of(const Kernel<Pixel>& kernel, const Cluster& cluster) {
+  const ClusterProjection& projection = kernel.projection;
+  const auto& row = projection.perspective ? projection.row_w : projection.row_depth;
+  const auto& c = cluster.center_mm;
+  const auto& e = cluster.extent_mm;
+  const float middle = row.x * c.x + row.y * c.y + row.z * c.z + row.w - projection.start_mm;
+  const float reach =
+      __builtin_fabsf(row.x) * e.x + __builtin_fabsf(row.y) * e.y + __builtin_fabsf(row.z) * e.z;
+  return {middle - reach, middle + reach};
+}
+
+/// Whether pixels hold numbers of shells.
+template <class Pixel>
+constexpr bool kCounts = false;
 template <>
-constexpr bool kCued<float> = true;
+constexpr bool kCounts<std::int32_t> = true;
+
+/// Whether what pixels hold depends on depth.
+template <class Pixel>
+constexpr bool kDeep = false;
+template <>
+constexpr bool kDeep<float> = true;
+template <>
+constexpr bool kDeep<std::uint64_t> = true;
+
+/// What part of the cluster shows, or, for numbers of shells, lies beyond the ends.
+template <class Pixel>
+Part part_of(const Kernel<Pixel>& kernel, const RayEnds* ends, const Cluster& cluster) {
+  if (ends == nullptr) return Part::All;
+  const Extent depths = depths_of(kernel, cluster);
+  if constexpr (kCounts<Pixel>) {
+    return depths.hi > ends->least_mm ? Part::Some : Part::None;
+  } else {
+    if (depths.hi < 0.0F || depths.lo > ends->greatest_mm) return Part::None;
+    return depths.lo >= 0.0F && depths.hi <= ends->least_mm ? Part::All : Part::Some;
+  }
+}
 
 struct PixelVertices {
   alignas(64) float x[256];  // pixels
   alignas(64) float y[256];
-  alignas(64) float depth[256];      // z, or 1 / w (perspective); for pixels with a cue only
+  alignas(64) float depth[256];      // or 1 / depth (perspective); where needed
   alignas(64) std::int32_t xy[256];  // sub-pixels from the origin, x in the lower half
   int origin_x, origin_y;            // a pixel
-};
-
-struct Extent {
-  float lo, hi;
 };
 
 inline Extent extent_of(const Floats& lo, const Floats& hi) {
@@ -120,7 +157,7 @@ inline Floats row_at(const glm::vec4& row, const Floats& x, const Floats& y, con
 }
 
 /// Projects and rounds. False if the cluster is too large.
-template <class Pixel>
+template <bool kDepth, class Pixel>
 bool project(const Kernel<Pixel>& kernel, const float* positions, int count, PixelVertices& out) {
   const ClusterProjection& projection = kernel.projection;
   Floats lo_x = Floats{} + 1e30F;
@@ -137,9 +174,9 @@ bool project(const Kernel<Pixel>& kernel, const float* positions, int count, Pix
       const Floats over_w = 1.0F / row_at(projection.row_w, x, y, z);
       clip_x *= over_w;
       clip_y *= over_w;
-      if constexpr (kCued<Pixel>) store(out.depth + i, over_w);
-    } else if constexpr (kCued<Pixel>) {
-      store(out.depth + i, row_at(projection.row_z, x, y, z));
+      if constexpr (kDepth) store(out.depth + i, over_w);
+    } else if constexpr (kDepth) {
+      store(out.depth + i, row_at(projection.row_depth, x, y, z));
     }
     const Floats pixel_x = clip_x * kernel.half_width + kernel.half_width;
     const Floats pixel_y = clip_y * kernel.half_height + kernel.half_height;

@@ -20,10 +20,10 @@ constexpr double kReach = 1 << 19;
 struct Point {
   std::int64_t x = 0;
   std::int64_t y = 0;
-  double depth = 0.0;  ///< z, or 1 / w (perspective)
+  double depth = 0.0;  ///< or 1 / depth (perspective)
 };
 
-/// A corner in clip coordinates x, y, depth z, w.
+/// A corner in clip coordinates x, y, depth (without perspective), w.
 using ClipPoint = glm::dvec4;
 
 /// At most 3 corners, and one more for each of 5 planes.
@@ -93,14 +93,16 @@ class LargeCluster {
         half_width_(0.5F * static_cast<float>(target.width)),
         half_height_(0.5F * static_cast<float>(target.height)) {}
 
-  void run() const {
+  void run() {
     const Cluster& cluster = *draw_.clusters;
     const std::size_t count = cluster.triangles;
     const std::span corners(draw_.corners + cluster.first_corner, 3 * count);
     for (std::size_t t = 0; t < count; ++t) {
       const std::array<std::size_t, 3> triangle{corners[t], corners[t + count],
                                                 corners[t + 2 * count]};
-      if (triangle[0] != triangle[1]) draw(triangle);  // else padding
+      if (triangle[0] == triangle[1]) continue;  // padding
+      number_ = cluster.first_corner / 3 + static_cast<std::uint32_t>(t);
+      draw(triangle);
     }
   }
 
@@ -127,7 +129,7 @@ class LargeCluster {
     for (std::size_t i = 0; i < 3; ++i) {
       const glm::vec3 p = position(triangle[i]);
       glm::vec2 clip(at(projection_.row_x, p), at(projection_.row_y, p));
-      float depth = at(projection_.row_z, p);
+      float depth = at(projection_.row_depth, p);
       if (projection_.perspective) {
         const float w = at(projection_.row_w, p);
         if (!(w > projection_.near_mm)) return false;
@@ -155,7 +157,7 @@ class LargeCluster {
     Polygon polygon;
     for (const std::size_t vertex : triangle) {
       const glm::vec3 p = position(vertex);
-      polygon.add({at(projection_.row_x, p), at(projection_.row_y, p), at(projection_.row_z, p),
+      polygon.add({at(projection_.row_x, p), at(projection_.row_y, p), at(projection_.row_depth, p),
                    at(projection_.row_w, p)});
     }
     const double across = kReach / half_width_;
@@ -181,7 +183,8 @@ class LargeCluster {
   void fill(const Point& a, Point b, Point c) const {
     std::int64_t area = edge_at(a, b, c.x, c.y);
     // Front faces are counter-clockwise, which has a negative area where y points down.
-    if (draw_.faces == Faces::Front || (draw_.faces == Faces::Both && area < 0)) {
+    const bool front = area < 0;
+    if (draw_.faces == Faces::Front || (draw_.faces == Faces::Both && front)) {
       std::swap(b, c);
       area = -area;
     }
@@ -198,26 +201,46 @@ class LargeCluster {
       narrow(a, b, center_y, first, last);
       narrow(b, c, center_y, first, last);
       narrow(c, a, center_y, first, last);
-      Pixel* row = target_.pixels + y * target_.width;
       for (std::int64_t x = first; x <= last; ++x) {
-        row[x] = std::max(row[x], value(a, b, c, x * kSubpixels + half, center_y));
+        put(x + y * target_.width, depth_at(a, b, c, x * kSubpixels + half, center_y), front);
       }
     }
   }
 
-  Pixel value(const Point& a, const Point& b, const Point& c, std::int64_t x,
-              std::int64_t y) const {
+  /// The depth of the triangle's plane at a point; 0 where it does not matter.
+  float depth_at(const Point& a, const Point& b, const Point& c, std::int64_t x,
+                 std::int64_t y) const {
+    if (std::is_integral_v<Pixel> && sizeof(Pixel) <= 2 && draw_.ends == nullptr) return 0.0F;
+    const auto at_a = static_cast<double>(edge_at(b, c, x, y));
+    const auto at_b = static_cast<double>(edge_at(c, a, x, y));
+    const auto at_c = static_cast<double>(edge_at(a, b, x, y));
+    const double sum = at_a + at_b + at_c;
+    const double weighed = at_a * a.depth + at_b * b.depth + at_c * c.depth;
+    return static_cast<float>(projection_.perspective ? sum / weighed : weighed / sum);
+  }
+
+  void put(std::int64_t at, float depth, bool front) const {
+    Pixel& pixel = target_.pixels[at];
+    const float depth_mm = depth - projection_.start_mm;
+    if constexpr (std::is_same_v<Pixel, std::int32_t>) {
+      if (depth_mm > draw_.ends->of_pixels_mm[at]) pixel += front ? -1 : 1;
+    } else {
+      if (!shows(at, depth_mm)) return;
+      pixel = std::max(pixel, value_at(depth));
+    }
+  }
+
+  bool shows(std::int64_t at, float depth_mm) const {
+    return draw_.ends == nullptr || (depth_mm >= 0.0F && depth_mm <= draw_.ends->of_pixels_mm[at]);
+  }
+
+  Pixel value_at(float depth) const {
     if constexpr (std::is_same_v<Pixel, float>) {
-      const auto at_a = static_cast<double>(edge_at(b, c, x, y));
-      const auto at_b = static_cast<double>(edge_at(c, a, x, y));
-      const auto at_c = static_cast<double>(edge_at(a, b, x, y));
-      const double depth =
-          (at_a * a.depth + at_b * b.depth + at_c * c.depth) / (at_a + at_b + at_c);
-      const double z =
-          projection_.perspective ? projection_.z_of_w.x + projection_.z_of_w.y / depth : depth;
+      const float z = projection_.z_of_depth.x + projection_.z_of_depth.y * depth;
       const Brightness<float>& ends = draw_.brightness;
-      return static_cast<float>(ends.at_far +
-                                double{ends.at_near - ends.at_far} * std::clamp(z, 0.0, 1.0));
+      return ends.at_far + (ends.at_near - ends.at_far) * std::clamp(z, 0.0F, 1.0F);
+    } else if constexpr (std::is_same_v<Pixel, std::uint64_t>) {
+      return key_of({depth - projection_.start_mm, draw_.brightness.first_triangle + number_});
     } else {
       return draw_.brightness.rank;
     }
@@ -228,6 +251,7 @@ class LargeCluster {
   const PixelTarget<Pixel>& target_;
   float half_width_;
   float half_height_;
+  std::uint32_t number_ = 0;  // of the triangle drawn, in its mesh
 };
 
 }  // namespace
@@ -244,5 +268,9 @@ template void draw_large_cluster(const ClusterDraw<std::uint16_t>&, const Cluste
                                  const PixelTarget<std::uint16_t>&);
 template void draw_large_cluster(const ClusterDraw<float>&, const ClusterProjection&,
                                  const PixelTarget<float>&);
+template void draw_large_cluster(const ClusterDraw<std::int32_t>&, const ClusterProjection&,
+                                 const PixelTarget<std::int32_t>&);
+template void draw_large_cluster(const ClusterDraw<std::uint64_t>&, const ClusterProjection&,
+                                 const PixelTarget<std::uint64_t>&);
 
 }  // namespace nacre

@@ -2,9 +2,9 @@
 
 #include <GL/glcorearb.h>
 
-#include <algorithm>
 #include <glm/gtc/type_ptr.hpp>
-#include <limits>
+
+#include "render/ray_ends.h"
 
 namespace nacre {
 namespace {
@@ -68,12 +68,6 @@ vec3 local_way() { return local_from_view * ray_way(); }
 float cue_integral(float d) { return length(ray_way()) * d * (cue.x + 0.5 * cue.y * d); }
 )";
 
-/// Infinite depths as the largest float, which GLSL can compare.
-float finite(double value) {
-  const double largest = std::numeric_limits<float>::max();
-  return static_cast<float>(std::clamp(value, -largest, largest));
-}
-
 }  // namespace
 
 FrameProgram::FrameProgram(const GlFunctions& gl, std::string_view fragment_source,
@@ -102,7 +96,7 @@ void FrameProgram::use(const TileFrame& tile) const {
   gl_->use_program(program_.id());
   gl_->uniform_matrix_4fv(clip_from_local_, 1, GL_FALSE, glm::value_ptr(tile.clip_from_local));
   gl_->uniform_4fv(depth_from_local_, 1, glm::value_ptr(glm::vec4(rays.depth_from_local)));
-  gl_->uniform_1f(end_mm_, finite(rays.end_mm));
+  gl_->uniform_1f(end_mm_, finite_mm(rays.end_mm));
   gl_->uniform_2fv(z_of_depth_, 1, glm::value_ptr(glm::vec2(rays.z_of_depth)));
   gl_->uniform_2fv(cue_, 1, glm::value_ptr(glm::vec2(rays.cue)));
   gl_->uniform_2fv(cue_range_, 1, glm::value_ptr(glm::vec2(rays.cue_range)));

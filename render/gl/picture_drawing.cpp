@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "render/gl/ray_ends.h"
+#include "render/ray_ends.h"
 
 namespace nacre {
 namespace {
@@ -45,6 +45,13 @@ std::span<const Element> row_of(const std::vector<Element>& pixels, int row, int
   if (pixels.empty()) return {};
   const auto length = static_cast<std::size_t>(width);
   return std::span(pixels).subspan(static_cast<std::size_t>(row) * length, length);
+}
+
+/// Where the rays of a row of pixels end: by the slab or, if there are any, by tools.
+std::vector<float> ends_of(std::span<const glm::vec4> tools, const RayFrame& rays, int width) {
+  std::vector<float> ends_mm(static_cast<std::size_t>(width), finite_mm(rays.end_mm));
+  for (std::size_t i = 0; i < tools.size(); ++i) ends_mm[i] = std::min(ends_mm[i], tools[i].w);
+  return ends_mm;
 }
 
 void copy_tools(std::span<const glm::vec4> layer, const PixelRect& rect, ToolLayer& tools) {
@@ -100,7 +107,8 @@ void PictureDrawing::draw_tile(const Camera& camera, const Plan& plan, const Sce
       const std::span<float> row(&picture.volume.at(rect.x, rect.y + y),
                                  static_cast<std::size_t>(rect.width));
       raise_to_ray_ends(row_of(counts, y, rect.width), pass.emission_of_count,
-                        row_of(tile.tools, y, rect.width), tile.frame.rays, at_end, row);
+                        ends_of(row_of(tile.tools, y, rect.width), tile.frame.rays, rect.width),
+                        tile.frame.rays, at_end, row);
     }
   }
 }

@@ -1,6 +1,7 @@
 // Which pixels a triangle covers, in both ways of drawing one.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <glm/vec2.hpp>
@@ -28,9 +29,11 @@ ClusterProjection pixels_as_positions() {
 
 using Corners = std::array<glm::vec2, 3>;
 
-MeshClusters clusters_of(const Corners& corners) {
+MeshClusters clusters_of(const Corners& corners, const glm::vec3& depths = {}) {
   TriangleMesh mesh;
-  for (const glm::vec2& corner : corners) mesh.positions.emplace_back(corner, 0.0F);
+  for (int i = 0; i < 3; ++i) {
+    mesh.positions.emplace_back(corners[static_cast<std::size_t>(i)], depths[i]);
+  }
   mesh.triangles.emplace_back(0U, 1U, 2U);
   return cluster_mesh(mesh);
 }
@@ -56,6 +59,28 @@ std::vector<std::uint8_t> covered(const Corners& corners, Way way, Faces faces =
   return pixels;
 }
 
+/// What a cut triangle leaves in pixels. Depth is z, rays end at `ends_mm`.
+template <class Pixel>
+std::vector<Pixel> left_of(const MeshClusters& mesh, Way way, const Brightness<Pixel>& brightness,
+                           const RayEnds* ends) {
+  ClusterProjection projection = pixels_as_positions();
+  projection.row_depth = {0.0F, 0.0F, 1.0F, 0.0F};
+  projection.z_of_depth = {1.0F, -0.1F};
+  std::vector<Pixel> pixels(kSide * kSide, 0);
+  const PixelTarget<Pixel> target{pixels.data(), kSide, kSide};
+  const ClusterDraw<Pixel> draw{
+      mesh.clusters.data(), 1,   mesh.positions.data(), mesh.corners.data(), Faces::Both,
+      brightness,           ends};
+  std::array<std::uint32_t, 1> too_large{};
+  if (way == Way::Large) {
+    draw_large_cluster(draw, projection, target);
+  } else {
+    const InstructionSet set = way == Way::Best ? best_instruction_set() : InstructionSet::Baseline;
+    draw_clusters_for<Pixel>(set)(draw, projection, target, too_large.data());
+  }
+  return pixels;
+}
+
 /// A corner anywhere, on a pixel's centre, or on a pixel's corner: where ties are.
 glm::vec2 random_corner(std::mt19937& random) {
   std::uniform_int_distribution<int> whole(-3, kSide + 2);
@@ -77,6 +102,62 @@ TEST(CpuCoverage, BothWaysAndAllInstructionsCoverTheSame) {
     const auto expected = covered(corners, Way::Baseline);
     ASSERT_EQ(covered(corners, Way::Best), expected);
     ASSERT_EQ(covered(corners, Way::Large), expected);
+  }
+}
+
+// Rays end at a depth of their own in each pixel; triangles are tilted and lie partly before the
+// start, between, and beyond.
+TEST(CpuCoverage, BothWaysAndAllInstructionsCutTheSame) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<float> depth(-4.0F, 12.0F);
+  std::vector<float> ends_mm(kSide * kSide);
+  std::size_t ranks = 0;
+  std::size_t counted = 0;
+  for (int i = 0; i < 300; ++i) {
+    for (float& end : ends_mm) end = depth(random);
+    const auto [least, greatest] = std::minmax_element(ends_mm.begin(), ends_mm.end());
+    const RayEnds ends{ends_mm.data(), *least, *greatest};
+    const Corners corners{random_corner(random), random_corner(random), random_corner(random)};
+    const MeshClusters mesh = clusters_of(corners, {depth(random), depth(random), depth(random)});
+    const auto keys = left_of<std::uint64_t>(mesh, Way::Baseline, {7}, nullptr);
+    const auto rank = left_of<std::uint8_t>(mesh, Way::Baseline, {3}, &ends);
+    const auto cued = left_of<float>(mesh, Way::Baseline, {1.0F, 0.5F}, &ends);
+    const auto count = left_of<std::int32_t>(mesh, Way::Baseline, {}, &ends);
+    for (const Way way : {Way::Best, Way::Large}) {
+      ASSERT_EQ(left_of<std::uint8_t>(mesh, way, {3}, &ends), rank);
+      ASSERT_EQ(left_of<std::int32_t>(mesh, way, {}, &ends), count);
+    }
+    ASSERT_EQ(left_of<float>(mesh, Way::Best, {1.0F, 0.5F}, &ends), cued);
+    ASSERT_EQ(left_of<std::uint64_t>(mesh, Way::Best, {7}, nullptr), keys);
+    const auto cued_large = left_of<float>(mesh, Way::Large, {1.0F, 0.5F}, &ends);
+    const auto keys_large = left_of<std::uint64_t>(mesh, Way::Large, {7}, nullptr);
+    for (std::size_t p = 0; p < keys.size(); ++p) {
+      ASSERT_NEAR(cued_large[p], cued[p], 1e-5F);
+      ASSERT_EQ(keys[p] == 0, keys_large[p] == 0);
+      if (keys[p] == 0) continue;
+      const NearestKey seen = nearest_of(keys[p]);
+      EXPECT_EQ(seen.triangle, 7U);
+      ASSERT_NEAR(nearest_of(keys_large[p]).depth_mm, seen.depth_mm, 1e-4F);
+      const bool between = seen.depth_mm >= 0.0F && seen.depth_mm <= ends_mm[p];
+      ASSERT_EQ(rank[p], between ? 3 : 0);
+      ASSERT_EQ(count[p] != 0, seen.depth_mm > ends_mm[p]);
+      ranks += rank[p] != 0 ? 1U : 0U;
+      counted += count[p] != 0 ? 1U : 0U;
+    }
+  }
+  EXPECT_GT(ranks, 1000U);
+  EXPECT_GT(counted, 1000U);
+}
+
+TEST(CpuCoverage, NearerTrianglesHaveGreaterKeys) {
+  const std::array<float, 7> depths{-1e30F, -2.0F, -1e-20F, 0.0F, 1e-20F, 3.0F, 1e30F};
+  for (std::size_t i = 0; i < depths.size(); ++i) {
+    const NearestKey back = nearest_of(key_of({depths[i], 12}));
+    EXPECT_EQ(back.depth_mm, depths[i]);
+    EXPECT_EQ(back.triangle, 12U);
+    EXPECT_GT(key_of({depths[i], 11}), key_of({depths[i], 12}));
+    if (i == 0) continue;
+    EXPECT_GT(key_of({depths[i - 1], 99}), key_of({depths[i], 0}));
   }
 }
 

@@ -1,0 +1,263 @@
+#include "render/cpu/plan_drawing.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <type_traits>
+
+#include "render/cpu/large_triangles.h"
+#include "render/cpu/thread_pixels.h"
+#include "render/cpu/tile_ends.h"
+#include "render/projection.h"
+#include "render/ray_ends.h"
+#include "render/ray_frame.h"
+
+namespace nacre {
+namespace {
+
+/// Clusters drawn by one task: some microseconds of work.
+constexpr std::size_t kTaskClusters = 32;
+
+glm::dvec4 row(const glm::dmat4& matrix, int r) {
+  return {matrix[0][r], matrix[1][r], matrix[2][r], matrix[3][r]};
+}
+
+ClusterProjection projection_of(const Camera& camera, const RayFrame& rays, double start_mm,
+                                const glm::dvec3& center_mm, const PixelRect& tile) {
+  const glm::dmat4 clip = clip_from_local(camera, center_mm, tile);
+  ClusterProjection projection;
+  projection.row_x = row(clip, 0);
+  projection.row_y = row(clip, 1);
+  projection.row_w = row(clip, 3);
+  projection.perspective = camera.perspective;
+  projection.row_depth = rays.depth_from_local;
+  projection.start_mm = camera.perspective ? static_cast<float>(start_mm) : 0.0F;
+  const double z_at_eye = z_at_view_depth(camera, 0.0);
+  projection.z_of_depth = camera.perspective
+                              ? glm::dvec2(z_at_eye, z_at_view_depth(camera, 1.0) - z_at_eye)
+                              : rays.z_of_depth;
+  projection.near_mm = static_cast<float>(near_plane_mm(camera));
+  projection.view_from = camera.perspective ? eye_mm(camera) - center_mm : camera.forward;
+  return projection;
+}
+
+/// What a shell of the plan shines with.
+template <class Pixel>
+Brightness<Pixel> brightness_of(const ShellDraw& draw, const Plan& plan) {
+  if constexpr (std::is_same_v<Pixel, float>) {
+    return {static_cast<float>(draw.value_at_near), static_cast<float>(draw.value_at_far)};
+  } else if constexpr (std::is_same_v<Pixel, std::int32_t>) {
+    return {};
+  } else {
+    const auto ranks = static_cast<double>(plan.emission_of_rank.size() - 1);
+    return {static_cast<Pixel>(std::lround(draw.depth_at_near * ranks))};
+  }
+}
+
+bool is_cut(const ShellDraw& draw) { return draw.cut_by_slab || draw.tools != ToolCut::None; }
+
+/// Whether some rays of the plan have ends that matter.
+bool needs_ends(const Plan& plan) {
+  return std::any_of(plan.passes.begin(), plan.passes.end(), [](const Pass& pass) {
+    return pass.kind != PassKind::MaxDepth ||
+           std::any_of(pass.draws.begin(), pass.draws.end(), is_cut);
+  });
+}
+
+/// Parts of a mesh, each for one task.
+template <class Pixel>
+void add_tasks(const MeshClusters& mesh, ClusterDraw<Pixel> draw,
+               std::vector<ClusterDraw<Pixel>>& tasks) {
+  draw.positions = mesh.positions.data();
+  draw.corners = mesh.corners.data();
+  for (std::size_t first = 0; first < mesh.clusters.size(); first += kTaskClusters) {
+    draw.clusters = mesh.clusters.data() + first;
+    draw.count = std::min(kTaskClusters, mesh.clusters.size() - first);
+    tasks.push_back(draw);
+  }
+}
+
+/// Part of a picture, and how it is seen.
+struct Tile {
+  PixelRect rect;
+  RayFrame rays;
+  ClusterProjection projection;
+};
+
+}  // namespace
+
+class PlanDrawing::Targets {
+ public:
+  explicit Targets(InstructionSet instructions) : instructions_(instructions) {}
+
+  Picture draw(const Camera& camera, const Plan& plan, const SceneMeshes& scene) {
+    Picture picture{make_image(camera.size.x, camera.size.y), std::nullopt};
+    stats_ = {};
+    if (plan.passes.empty()) return picture;
+    if (plan.passes.front().kind == PassKind::ToolLayer) {
+      picture.tools = make_tool_layer(camera.size.x, camera.size.y);
+    }
+    for (const PixelRect& rect : plan.tiles) {
+      Tile tile{rect, ray_frame(camera, scene.center_mm, plan.rays, plan.cue, rect), {}};
+      tile.projection = projection_of(camera, tile.rays, plan.rays.start_mm, scene.center_mm, rect);
+      draw_tile(plan, scene, tile, picture);
+    }
+    drop_unseen_tools(picture);
+    stats_.target_bytes = bytes();
+    return picture;
+  }
+
+  const FrameStats& stats() const { return stats_; }
+
+ private:
+  void draw_tile(const Plan& plan, const SceneMeshes& scene, const Tile& tile, Picture& picture) {
+    if (needs_ends(plan)) ends_.begin({tile.rect.width, tile.rect.height}, tile.rays);
+    for (const Pass& pass : plan.passes) {
+      stats_.passes += 1;
+      stats_.draws += pass.kind == PassKind::ToolLayer ? pass.tools.size() : pass.draws.size();
+      switch (pass.kind) {
+        case PassKind::ToolLayer: draw_tools(pass, scene, tile, *picture.tools); break;
+        case PassKind::StartCounts:
+        case PassKind::EndCounts: draw_counts(plan, pass, scene, tile, picture.volume); break;
+        default: draw_max(plan, pass, scene, tile, picture.volume);
+      }
+    }
+  }
+
+  void draw_tools(const Pass& pass, const SceneMeshes& scene, const Tile& tile, ToolLayer& layer) {
+    std::vector<ClusterDraw<std::uint64_t>> tasks;
+    for (const std::uint32_t tool : pass.tools) {
+      add_tasks<std::uint64_t>(
+          scene.tools->mesh(tool),
+          {.faces = Faces::Both, .brightness = {scene.tools->first_triangle(tool)}}, tasks);
+    }
+    run(tasks, tile, nearest_);
+    nearest_.merge([&](int y, std::span<const std::uint64_t> seen) {
+      const std::size_t first =
+          static_cast<std::size_t>(tile.rect.y + y) * static_cast<std::size_t>(layer.width) +
+          static_cast<std::size_t>(tile.rect.x);
+      for (std::size_t x = 0; x < seen.size(); ++x) {
+        if (seen[x] == 0) continue;
+        const NearestKey nearest = nearest_of(seen[x]);
+        const glm::dvec2 pixel(static_cast<double>(x) + 0.5, y + 0.5);
+        layer.colors[first + x] = scene.tools->color_at(nearest, pixel, tile.rays);
+        layer.covered[first + x] = 1;
+        ends_.lower(static_cast<int>(x), y, nearest.depth_mm);
+      }
+    });
+    ends_.find_range();
+  }
+
+  void draw_max(const Plan& plan, const Pass& pass, const SceneMeshes& scene, const Tile& tile,
+                Image& image) {
+    const auto show_ranks = [&](int y, auto ranks) {
+      float* out = &image.at(tile.rect.x, tile.rect.y + y);
+      for (std::size_t x = 0; x < ranks.size(); ++x) out[x] = plan.emission_of_rank[ranks[x]];
+    };
+    if (plan.depth_scale > 0.0) {
+      draw_shells(plan, pass, scene, tile, cued_);
+      cued_.merge([&](int y, std::span<const float> emissions) {
+        std::copy(emissions.begin(), emissions.end(), &image.at(tile.rect.x, tile.rect.y + y));
+      });
+    } else if (plan.emission_of_rank.size() <= std::numeric_limits<std::uint8_t>::max() + 1U) {
+      draw_shells(plan, pass, scene, tile, bytes_);
+      bytes_.merge(show_ranks);
+    } else {
+      draw_shells(plan, pass, scene, tile, words_);
+      words_.merge(show_ranks);
+    }
+  }
+
+  void draw_counts(const Plan& plan, const Pass& pass, const SceneMeshes& scene, const Tile& tile,
+                   Image& image) {
+    const bool at_end = pass.kind == PassKind::EndCounts;
+    draw_shells(plan, pass, scene, tile, counts_);
+    counts_.merge([&](int y, std::span<const std::int32_t> counted) {
+      const std::vector<float> counts(counted.begin(), counted.end());
+      raise_to_ray_ends(counts, pass.emission_of_count, ends_.row(y), tile.rays, at_end,
+                        {&image.at(tile.rect.x, tile.rect.y + y), counted.size()});
+    });
+  }
+
+  template <class Pixel>
+  void draw_shells(const Plan& plan, const Pass& pass, const SceneMeshes& scene, const Tile& tile,
+                   ThreadPixels<Pixel>& target) {
+    const bool at_start = pass.kind == PassKind::StartCounts;
+    const RayEnds ends = at_start ? ends_.starts() : ends_.ends();
+    std::vector<ClusterDraw<Pixel>> tasks;
+    for (const ShellDraw& draw : pass.draws) {
+      const bool cut = std::is_same_v<Pixel, std::int32_t> || is_cut(draw);
+      add_tasks<Pixel>(*scene.shells[draw.shell],
+                       {.faces = draw.faces,
+                        .brightness = brightness_of<Pixel>(draw, plan),
+                        .ends = cut ? &ends : nullptr},
+                       tasks);
+    }
+    run(tasks, tile, target);
+  }
+
+  template <class Pixel>
+  void run(const std::vector<ClusterDraw<Pixel>>& tasks, const Tile& tile,
+           ThreadPixels<Pixel>& pixels) {
+    std::atomic<std::size_t> triangles = 0;
+    pixels.begin({tile.rect.width, tile.rect.height});
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tasks.size()), [&](const auto& range) {
+      const PixelTarget<Pixel> target = pixels.target();
+      std::size_t drawn = 0;
+      for (std::size_t i = range.begin(); i != range.end(); ++i) {
+        drawn += draw_clusters(tasks[i], tile.projection, target);
+      }
+      triangles += drawn;
+    });
+    stats_.triangles += triangles;
+  }
+
+  template <class Pixel>
+  std::size_t draw_clusters(const ClusterDraw<Pixel>& task, const ClusterProjection& projection,
+                            const PixelTarget<Pixel>& target) const {
+    std::array<std::uint32_t, kTaskClusters> too_large;
+    const KernelResult result =
+        draw_clusters_for<Pixel>(instructions_)(task, projection, target, too_large.data());
+    ClusterDraw<Pixel> large = task;
+    for (std::size_t i = 0; i < result.too_large; ++i) {
+      large.clusters = task.clusters + too_large[i];
+      draw_large_cluster(large, projection, target);
+    }
+    return result.triangles;
+  }
+
+  std::size_t bytes() const {
+    return bytes_.bytes() + words_.bytes() + cued_.bytes() + counts_.bytes() + nearest_.bytes() +
+           ends_.bytes();
+  }
+
+  InstructionSet instructions_;
+  ThreadPixels<std::uint8_t> bytes_;
+  ThreadPixels<std::uint16_t> words_;
+  ThreadPixels<float> cued_;
+  ThreadPixels<std::int32_t> counts_;
+  ThreadPixels<std::uint64_t> nearest_;
+  TileEnds ends_;
+  FrameStats stats_;
+};
+
+PlanDrawing::PlanDrawing(InstructionSet instructions)
+    : targets_(std::make_unique<Targets>(instructions)) {}
+PlanDrawing::~PlanDrawing() = default;
+PlanDrawing::PlanDrawing(PlanDrawing&&) noexcept = default;
+PlanDrawing& PlanDrawing::operator=(PlanDrawing&&) noexcept = default;
+
+Picture PlanDrawing::draw(const Camera& camera, const Plan& plan, const SceneMeshes& scene) {
+  return targets_->draw(camera, plan, scene);
+}
+
+const FrameStats& PlanDrawing::stats() const noexcept { return targets_->stats(); }
+
+}  // namespace nacre

@@ -1,0 +1,44 @@
+#include "tests/render/cpu_test_support.h"
+
+#include <cstddef>
+#include <utility>
+
+#include "datasets/phantom.h"
+#include "extract/levels.h"
+#include "extract/marching_cubes.h"
+
+namespace nacre::testing {
+
+Scan small_angiogram() {
+  const Volume volume = make_phantom("angiogram", {.size = glm::i64vec3(48, 48, 32)});
+  Scan scan{{}, bounding_sphere(volume.dims, volume.world_from_voxel)};
+  std::vector<double> values;
+  for (const Level& level : uniform_levels(8)) {
+    values.push_back(250.0 + 1000.0 * level.emission);
+    scan.set.shells.push_back({level.emission, values.back(), level.representative, {}});
+  }
+  std::vector<TriangleMesh> surfaces = extract_surfaces(volume, values);
+  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    scan.set.shells[i].surface = std::move(surfaces[i]);
+  }
+  scan.set.center_mm = scan.sphere.center_mm;
+  return scan;
+}
+
+std::vector<Camera> cameras(const BoundingSphere& sphere, const glm::ivec2& size) {
+  const double radius = sphere.radius_mm;
+  const CameraOptions turned{.size = size, .azimuth_rad = 0.6, .elevation_rad = 0.35};
+  std::vector<Camera> list{make_camera(turned, sphere)};
+  CameraOptions options = turned;
+  options.zoom = 6.0;
+  list.push_back(make_camera(options, sphere));
+  options = turned;
+  options.field_of_view_rad = 0.7;
+  list.push_back(make_camera(options, sphere));
+  options.distance_mm = 0.3 * radius;
+  options.field_of_view_rad = 1.5;
+  list.push_back(make_camera(options, sphere));
+  return list;
+}
+
+}  // namespace nacre::testing
