@@ -223,7 +223,7 @@ void register_cuts(const Scene& scene) {
   const std::vector<Cut> cuts{{"whole", {}},
                               {"slab", {.slab = slab}},
                               {"tool", {}, true},
-                              {"tool, slab, cue", {.cue = cue, .slab = slab}, true}};
+                              {"tool+slab+cue", {.cue = cue, .slab = slab}, true}};
   for (const Cut& cut : cuts) {
     const std::string name = scene.name + "/cut:" + cut.name;
     register_bench(name + "/cpu", [=](benchmark::State& state) {
