@@ -14,39 +14,20 @@
 #include "io/png_picture.h"
 #include "io/shell_reader.h"
 #include "io/shell_writer.h"
-#include "tests/support/run_command.h"
-#include "tests/support/scratch_folder.h"
+#include "tests/support/command_test.h"
 
 namespace nacre {
 namespace {
 
 using nlohmann::json;
 using testing::CommandResult;
-using testing::ScratchFolder;
 
-/// Runs nacre in a folder of its own, which starts with a small phantom in it.
-class Command : public ::testing::Test {
+/// The folder starts with a small phantom in it.
+class Command : public testing::CommandTest {
  protected:
   void SetUp() override {
     ASSERT_EQ(nacre("phantom spheres --size 20,18,16 -o ball.nii").status, 0);
   }
-
-  CommandResult nacre(const std::string& arguments) const {
-    return testing::run_command(NACRE_BINARY, arguments, folder_.path());
-  }
-
-  /// The command fails with this status and one line that holds `part`, and leaves no file.
-  void expect_refusal(const std::string& arguments, int status, const std::string& part) const {
-    const std::size_t files = folder_.file_count();
-    const CommandResult result = nacre(arguments);
-    EXPECT_EQ(result.status, status) << arguments << "\n" << result.errors;
-    EXPECT_NE(result.errors.find(part), std::string::npos) << arguments << "\n" << result.errors;
-    EXPECT_EQ(std::count(result.errors.begin(), result.errors.end(), '\n'), 1) << result.errors;
-    EXPECT_EQ(result.errors.rfind("nacre: ", 0), 0u) << result.errors;
-    EXPECT_EQ(folder_.file_count(), files) << arguments << " left a file";
-  }
-
-  ScratchFolder folder_;
 };
 
 TEST_F(Command, SaysItsVersionAndExplainsEveryVerb) {

@@ -7,24 +7,18 @@
 #include <string>
 #include <vector>
 
-#include "tests/support/run_command.h"
-#include "tests/support/scratch_folder.h"
+#include "tests/support/command_test.h"
 
 namespace nacre {
 namespace {
 
 using nlohmann::json;
 using testing::CommandResult;
-using testing::ScratchFolder;
 
-class ReportCommand : public ::testing::Test {
+class ReportCommand : public testing::CommandTest {
  protected:
   void SetUp() override {
     ASSERT_EQ(nacre("phantom spheres --size 16,15,14 -o ball.nii").status, 0);
-  }
-
-  CommandResult nacre(const std::string& arguments) const {
-    return testing::run_command(NACRE_BINARY, arguments, folder_.path());
   }
 
   json report(const std::string& flags) const {
@@ -59,8 +53,6 @@ class ReportCommand : public ::testing::Test {
       EXPECT_EQ(found["peak"], row["error"]["peak"]) << row["id"];
     }
   }
-
-  ScratchFolder folder_;
 };
 
 /// Rows of these ids.

@@ -4,14 +4,12 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <fstream>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "app/view_page.h"
 #include "core/error.h"
-#include "tests/support/run_command.h"
+#include "tests/support/command_test.h"
 #include "tests/support/scratch_folder.h"
 #include "viewer/page.h"
 
@@ -19,7 +17,6 @@ namespace nacre {
 namespace {
 
 using testing::CommandResult;
-using testing::ScratchFolder;
 
 constexpr const char* kNoPage = "built without the viewer's page";
 
@@ -80,7 +77,7 @@ TEST(ViewPage, IsKnownByItsName) {
   EXPECT_FALSE(is_page_name("b.html/set.glb"));
 }
 
-class ViewCommand : public ::testing::Test {
+class ViewCommand : public testing::CommandTest {
  protected:
   void SetUp() override {
     if (viewer_page().empty()) GTEST_SKIP() << kNoPage;
@@ -92,27 +89,9 @@ class ViewCommand : public ::testing::Test {
               0);
   }
 
-  CommandResult nacre(const std::string& arguments) const {
-    return testing::run_command(NACRE_BINARY, arguments, folder_.path());
-  }
-
   std::string contents(const std::string& name) const {
-    std::ostringstream text;
-    text << std::ifstream(folder_.path() / name, std::ios::binary).rdbuf();
-    return text.str();
+    return testing::read_bytes(folder_.path() / name);
   }
-
-  /// One line that holds `part`, and no file.
-  void expect_refusal(const std::string& arguments, int status, const std::string& part) const {
-    const std::size_t files = folder_.file_count();
-    const CommandResult result = nacre(arguments);
-    EXPECT_EQ(result.status, status) << arguments << "\n" << result.errors;
-    EXPECT_NE(result.errors.find(part), std::string::npos) << arguments << "\n" << result.errors;
-    EXPECT_EQ(std::count(result.errors.begin(), result.errors.end(), '\n'), 1) << result.errors;
-    EXPECT_EQ(folder_.file_count(), files) << arguments << " left a file";
-  }
-
-  ScratchFolder folder_;
 };
 
 TEST_F(ViewCommand, WritesThePageOfASet) {

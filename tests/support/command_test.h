@@ -1,0 +1,34 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+#include "tests/support/run_command.h"
+#include "tests/support/scratch_folder.h"
+
+namespace nacre::testing {
+
+/// Runs nacre in a folder of its own.
+class CommandTest : public ::testing::Test {
+ protected:
+  CommandResult nacre(const std::string& arguments) const {
+    return run_command(NACRE_BINARY, arguments, folder_.path());
+  }
+
+  /// The command fails with this status and one line that holds `part`, and leaves no file.
+  void expect_refusal(const std::string& arguments, int status, const std::string& part) const {
+    const std::size_t files = folder_.file_count();
+    const CommandResult result = nacre(arguments);
+    EXPECT_EQ(result.status, status) << arguments << "\n" << result.errors;
+    EXPECT_NE(result.errors.find(part), std::string::npos) << arguments << "\n" << result.errors;
+    EXPECT_EQ(std::count(result.errors.begin(), result.errors.end(), '\n'), 1) << result.errors;
+    EXPECT_EQ(result.errors.rfind("nacre: ", 0), 0u) << result.errors;
+    EXPECT_EQ(folder_.file_count(), files) << arguments << " left a file";
+  }
+
+  ScratchFolder folder_;
+};
+
+}  // namespace nacre::testing
