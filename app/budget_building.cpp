@@ -85,7 +85,8 @@ class Trials {
   }
 
   SetSize build(const BudgetCandidate& candidate) {
-    const ShellFlags flags = flags_of(flags_, candidate);
+    ShellFlags flags = flags_of(flags_, candidate);
+    flags.coarse = "none";  // a budget is for what a scene needs at most
     ordered_json unsaid;
     BuildOptions options =
         build_options(flags, input_.volume.world_from_voxel, placer_.place(flags, silent_, unsaid),

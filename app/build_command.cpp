@@ -4,7 +4,9 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
+#include <utility>
 
 #include "app/budget_building.h"
 #include "app/camera_flags.h"
@@ -24,6 +26,8 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr const char* kNoCertificate = "none";
+constexpr const char* kAutoCopies = "auto";
+constexpr const char* kNoCopies = "none";
 // Of the pictures a budget's sets are measured with where there is no certificate to agree with.
 constexpr glm::ivec2 kTradedSize{256, 256};
 
@@ -56,6 +60,27 @@ ordered_json level_list(const CompressedSet& built) {
   return levels;
 }
 
+/// Null if there are no coarse copies.
+ordered_json tell_coarse(const CompressedSet& built, const BuildFigures& figures,
+                         Reporter& reporter) {
+  if (!built.coarse) return {};
+  std::size_t triangles = 0;
+  std::size_t bytes = 0;
+  for (const CompressedShell& copy : built.coarse->shells) {
+    triangles += copy.triangles;
+    bytes += copy.bytes.size();
+  }
+  reporter.say(fmt::format("coarse copies: {} triangles, {} of these bytes, emission error {:.4g}",
+                           triangles, bytes, built.coarse->tolerance));
+  ordered_json json = {
+      {"tolerance", built.coarse->tolerance}, {"triangles", triangles}, {"bytes", bytes}};
+  if (!figures.coarse_error.is_null()) {
+    json["max"] = figures.coarse_error;
+    reporter.say("coarse copies: maxima " + figures.coarse_error.dump());
+  }
+  return json;
+}
+
 void check_name(const std::string& output) {
   if (std::filesystem::path(output).extension() == ".glb") return;
   if (is_page_name(output)) return require_page(output);
@@ -77,6 +102,14 @@ ordered_json certificate_of(const BuildFlags& flags, const CompressedSet& built,
   ordered_json certificate = certify_set(flags.volume, size, built, reporter, figures);
   say_certificate(certificate, reporter);
   return certificate;
+}
+
+/// A budget is for what a scene needs at most, and holds for the file: it has no room for copies.
+void check_copies(const BuildFlags& flags) {
+  const std::string& coarse = flags.shells.coarse;
+  if (flags.budget.empty() || coarse == kAutoCopies || coarse == kNoCopies) return;
+  throw Error(ErrorCode::BadArgument,
+              fmt::format("--coarse: found {} with --budget, expected one of them", coarse));
 }
 
 void check_certificate(const std::string& certificate) {
@@ -101,6 +134,7 @@ void run_build(const BuildFlags& flags) {
   const ThreadLimit limit(flags.common);
   check_name(flags.output);
   check_certificate(flags.certificate);
+  check_copies(flags);
   if (!flags.budget.empty()) check_budget(flags.budget);
   AtomicFile file(flags.output);  // before the work, which a bad name would waste
   Stopwatch total;
@@ -113,15 +147,19 @@ void run_build(const BuildFlags& flags) {
   const ordered_json levels = level_list(built);
   for (const ordered_json& level : levels) reporter.detail("  " + level.dump());
   const ordered_json certificate = certificate_of(flags, built, reporter, figures);
+  std::optional<CoarseShells> copies = built.coarse;
+  if (copies && !figures.coarse_error.is_null()) copies->error_json = figures.coarse_error.dump();
   const std::vector<std::byte> bytes = assemble_shell_set(
       set, built.shells,
-      {.certificate_json = certificate.is_null() ? std::string() : certificate.dump()});
+      {.certificate_json = certificate.is_null() ? std::string() : certificate.dump(),
+       .coarse = std::move(copies)});
   watch.lap();
   write_output(file, flags.output, bytes);
   const double writing = watch.lap();
 
   reporter.say(fmt::format("{} shells, {} triangles, {} bytes -> {}", set.shells.size(),
                            triangle_count(built), bytes.size(), flags.output));
+  const ordered_json coarse = tell_coarse(built, figures, reporter);
   const glm::dvec3 spacing = spacing_mm(set.volume.world_from_voxel);
   ordered_json json;
   json["volume"] = {{"dims", {set.volume.dims.x, set.volume.dims.y, set.volume.dims.z}},
@@ -133,6 +171,7 @@ void run_build(const BuildFlags& flags) {
   json["extracted_triangles"] = figures.extracted_triangles;
   json["triangles"] = triangle_count(built);
   json["bytes"] = bytes.size();
+  if (!coarse.is_null()) json["coarse"] = coarse;
   json["left_out"] = figures.left_out;
   json["nesting"] = figures.nesting;
   if (!figures.placement.is_null()) json["predicted"] = figures.placement;
@@ -142,6 +181,7 @@ void run_build(const BuildFlags& flags) {
                      {"emission", figures.emission},
                      {"extract", figures.extract},
                      {"simplify", figures.simplify},
+                     {"coarsen", figures.coarsen},
                      {"encode", figures.encode},
                      {"crossings", figures.crossings},
                      {"trade", figures.trade},
@@ -178,6 +218,13 @@ void add_build_verb(CLI::App& app, int& /*status*/) {
                    "--levels, --tolerance or --quantization name is held")
       ->group("Shells");
   add_shell_flags(*verb, flags->shells);
+  verb->add_option(
+          "--coarse", flags->shells.coarse,
+          "Coarser copies of the shells in the file, for a first picture soon: none, the emission "
+          "error they may have (above --tolerance), or auto (1.5 / levels, where a set has "
+          "more than 200,000 triangles); building takes about half as long again")
+      ->capture_default_str()
+      ->group("Shells");
   add_volume_reading_flags(*verb, flags->volume);
   add_emission_flags(*verb, flags->volume);
   add_common_flags(*verb, flags->common);

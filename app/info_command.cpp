@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "app/certificate_words.h"
@@ -160,6 +161,37 @@ void say_pruned(const Pruning& pruned, Reporter& reporter) {
   }
 }
 
+/// What a set's coarse copies take together.
+struct CopiesSize {
+  std::size_t triangles = 0;
+  std::size_t bytes = 0;
+};
+
+CopiesSize copies_size(const ShellFileCoarse& coarse) {
+  CopiesSize size;
+  for (const std::optional<ShellFileLevel>& copy : coarse.levels) {
+    if (!copy) continue;
+    size.triangles += copy->triangles;
+    size.bytes += copy->bytes;
+  }
+  return size;
+}
+
+ordered_json coarse_json(const ShellFileCoarse& coarse) {
+  const CopiesSize size = copies_size(coarse);
+  ordered_json json = {
+      {"tolerance", coarse.tolerance}, {"triangles", size.triangles}, {"bytes", size.bytes}};
+  if (!coarse.error_json.empty()) json["max"] = ordered_json::parse(coarse.error_json);
+  return json;
+}
+
+void say_coarse(const ShellFileCoarse& coarse, Reporter& reporter) {
+  const CopiesSize size = copies_size(coarse);
+  reporter.say(fmt::format("copies       {} triangles, {} bytes, emission error {:.4g}{}",
+                           size.triangles, size.bytes, coarse.tolerance,
+                           coarse.error_json.empty() ? "" : ", maxima " + coarse.error_json));
+}
+
 ordered_json to_json(const ShellFileInfo& info) {
   const ShellSet& set = info.set;
   ordered_json levels = ordered_json::array();
@@ -187,6 +219,7 @@ ordered_json to_json(const ShellFileInfo& info) {
   if (set.grid) json["quantization_bits"] = set.grid->bits;
   json["pruned"] = pruned_json(set.pruned);
   json["levels"] = levels;
+  if (info.coarse) json["coarse"] = coarse_json(*info.coarse);
   if (!info.certificate_json.empty()) {
     json["certificate"] = ordered_json::parse(info.certificate_json);
   }
@@ -211,6 +244,7 @@ void say_shells(const ShellFileInfo& info, Reporter& reporter) {
                              set.grid->range_mm / (std::exp2(set.grid->bits) - 1.0)));
   }
   say_pruned(set.pruned, reporter);
+  if (info.coarse) say_coarse(*info.coarse, reporter);
   if (!info.certificate_json.empty()) {
     say_certificate(ordered_json::parse(info.certificate_json), reporter);
   }

@@ -1,10 +1,16 @@
 #include "app/set_building.h"
 
 #include <fmt/core.h>
+#include <tbb/parallel_for.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <optional>
 
 #include <utility>
 
 #include "app/build_words.h"
+#include "core/error.h"
 #include "io/draco_decode.h"
 #include "shells/crossings.h"
 #include "shells/prune.h"
@@ -12,26 +18,77 @@
 namespace nacre {
 namespace {
 
+constexpr const char* kAuto = "auto";
+constexpr const char* kNone = "none";
+
+// A set that loads and draws at once on two cores as it is gets no copies.
+constexpr std::size_t kManyTriangles = 200'000;
+// Of copies, in mean layer widths, and at least so many times the shells' own
+// (docs/decisions/024-coarse-copies.md).
+constexpr double kCoarseLayers = 1.5;
+constexpr double kCoarser = 3.0;
+constexpr double kCoarsest = 0.25;
+
+/// The copies that a build left, compressed side by side.
+std::optional<CoarseShells> compress_copies(std::vector<TriangleMesh>&& copies, const ShellSet& set,
+                                            double tolerance) {
+  if (copies.empty()) return std::nullopt;
+  CoarseShells coarse{.tolerance = tolerance};
+  coarse.shells.resize(copies.size());
+  tbb::parallel_for(std::size_t{0}, copies.size(), [&](std::size_t k) {
+    coarse.shells[k] = compress_shell(std::move(copies[k]), *set.grid);
+  });
+  return coarse;
+}
+
 /// @param build  builds into the sink that it is given
 template <class Build>
-BuiltSet compress(std::size_t levels, Build&& build) {
+BuiltSet compress(const BuildOptions& options, Build&& build) {
   release_free_memory();
   BuiltSet result;
-  result.compressed.shells.resize(levels);
+  result.compressed.shells.resize(options.levels.size());
   BuiltShells built = build([&](const ShellSet& set, std::size_t k, TriangleMesh&& surface) {
     result.compressed.shells[k] = compress_shell(std::move(surface), *set.grid);
     release_free_memory();
   });
   result.compressed.set = std::move(built.set);
+  result.compressed.coarse =
+      compress_copies(std::move(built.copies), result.compressed.set, options.coarse_tolerance);
   result.report = built.report;
   return result;
 }
 
 }  // namespace
 
+double coarse_tolerance(const ShellFlags& flags, std::size_t levels, std::size_t& triangles) {
+  triangles = 0;
+  const double own = flags.tolerance.value_or(0.0);
+  if (flags.coarse == kNone) return 0.0;
+  if (flags.coarse == kAuto) {
+    const double chosen =
+        std::min(kCoarseLayers / static_cast<double>(std::max<std::size_t>(levels, 1)), kCoarsest);
+    triangles = kManyTriangles;
+    return own > 0.0 && chosen >= kCoarser * own ? chosen : 0.0;
+  }
+  double wanted = 0.0;
+  if (!CLI::detail::lexical_cast(flags.coarse, wanted) || !(wanted > own && wanted <= 1.0)) {
+    throw Error(ErrorCode::BadArgument,
+                fmt::format("--coarse: found {}, expected auto, none, or an emission above "
+                            "--tolerance ({}) and up to 1",
+                            flags.coarse, own));
+  }
+  if (!(own > 0.0)) {
+    throw Error(ErrorCode::BadArgument,
+                "--coarse: found shells that are not simplified, expected --tolerance");
+  }
+  return wanted;
+}
+
 BuildOptions build_options(const ShellFlags& flags, const glm::dmat4& world_from_voxel,
                            PlacedLevels levels, ProgressCallback progress) {
   BuildOptions options;
+  options.coarse_tolerance =
+      coarse_tolerance(flags, levels.levels.size(), options.coarse_above_triangles);
   options.levels = std::move(levels.levels);
   options.placement = std::move(levels.placement);
   options.emission_tolerance = flags.tolerance.value_or(0.0);
@@ -47,14 +104,14 @@ BuildOptions build_options(const ShellFlags& flags, const glm::dmat4& world_from
 
 BuiltSet build_and_compress(Volume&& volume, const EmissionMap& emission,
                             const BuildOptions& options) {
-  return compress(options.levels.size(), [&](const SurfaceSink& sink) {
+  return compress(options, [&](const SurfaceSink& sink) {
     return build_shells(std::move(volume), emission, options, sink);
   });
 }
 
 BuiltSet build_and_compress(const Volume& volume, const EmissionMap& emission,
                             const BuildOptions& options) {
-  return compress(options.levels.size(), [&](const SurfaceSink& sink) {
+  return compress(options, [&](const SurfaceSink& sink) {
     return build_shells(volume, emission, options, sink);
   });
 }
@@ -70,6 +127,7 @@ void tell_build(const ShellSet& set, const BuildReport& report, Reporter& report
   figures.left_out = tell_pruning(set.pruned, reporter);
   figures.extract = report.extract_seconds;
   figures.simplify = report.simplify_seconds + report.snap_seconds;
+  figures.coarsen = report.coarsen_seconds;
   figures.encode = report.sink_seconds;
   figures.extracted_triangles = report.extracted_triangles;
 }

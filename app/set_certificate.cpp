@@ -59,6 +59,22 @@ void check_unchanged(const VolumeFlags& flags, const Volume& volume, const Volum
                           flags.path));
 }
 
+/// The error of the maxima of a set's coarse copies, beside the exact pictures already made.
+ordered_json coarse_error(const CompressedSet& built, const ProgressCallback& callback,
+                          Certifier& certifier) {
+  // A level without a copy is shown as it is.
+  CompressedSet shown{built.set, built.shells};
+  for (std::size_t k = 0; k < shown.shells.size(); ++k) {
+    if (!built.coarse->shells[k].bytes.empty()) shown.shells[k] = built.coarse->shells[k];
+  }
+  certifier.restart();
+  add_shells(shown, callback, certifier);
+  const Certificate measured = certifier.result();
+  ordered_json json = error_json(measured.max);
+  json["size"] = {measured.size.x, measured.size.y};
+  return json;
+}
+
 }  // namespace
 
 void add_shells(const CompressedSet& built, const ProgressCallback& callback,
@@ -110,6 +126,7 @@ ordered_json certify_set(const VolumeFlags& flags, const glm::ivec2& size,
                       {.size = size, .progress = reporter.progress()});
   add_shells(built, reporter.progress(), certifier);
   ordered_json json = certificate_json(certifier.result());
+  if (built.coarse) figures.coarse_error = coarse_error(built, reporter.progress(), certifier);
   figures.certificate = watch.lap();
   return json;
 }

@@ -21,10 +21,11 @@ struct ShellFlags : LevelFlags {
   std::optional<double> min_component;  ///< mm^3; none: chosen
   bool keep_specks = false;
   std::string purpose = "all";  ///< all or max: which pictures the set must serve
+  std::string coarse = "none";  ///< auto, none, or the emission error of coarse copies
 };
 
 /// Adds the flags of levels, --tolerance, --tolerance-mm, --quantization, --min-component,
-/// --keep-specks and --purpose.
+/// --keep-specks, --purpose.
 void add_shell_flags(CLI::App& verb, ShellFlags& flags);
 
 /// What building took, in seconds, and how many triangles there were before simplification.
@@ -32,6 +33,7 @@ struct BuildFigures {
   double emission = 0.0;  ///< placing levels
   double extract = 0.0;
   double simplify = 0.0;
+  double coarsen = 0.0;
   double encode = 0.0;
   double crossings = 0.0;
   double certificate = 0.0;
@@ -40,7 +42,8 @@ struct BuildFigures {
   nlohmann::ordered_json left_out = nlohmann::ordered_json::array();  ///< {"what", "why", ...} each
   nlohmann::ordered_json nesting;
   nlohmann::ordered_json placement;
-  nlohmann::ordered_json budget;  ///< what was tried, where there is one
+  nlohmann::ordered_json coarse_error;  ///< of maxima of coarse copies, where it was measured
+  nlohmann::ordered_json budget;        ///< what was tried, where there is one
 };
 
 /// Shells of a volume, in memory; the volume is gone afterwards.
@@ -53,6 +56,7 @@ ShellSet build_shell_set(const ShellFlags& flags, EmissionVolume input, Reporter
 struct CompressedSet {
   ShellSet set;  ///< without surfaces
   std::vector<CompressedShell> shells;
+  std::optional<CoarseShells> coarse = {};
 };
 
 /// The same, each shell compressed when it is finished: never all of them in memory at once.

@@ -24,6 +24,9 @@ using nlohmann::ordered_json;
 void decode_shells(const VerifyFlags& flags, Reporter& reporter, VerifyFindings& findings) {
   const ShellFileInfo info = read_shell_file_info(flags.file);
   findings.set = info.set;
+  if (info.coarse) {
+    findings.warnings.emplace_back("the file's coarse copies were not checked, only its shells");
+  }
   for (std::size_t k = 0; k < info.levels.size(); ++k) {
     findings.names.push_back(fmt::format("{}", k + 1));
     if (info.levels[k].bytes == 0) continue;

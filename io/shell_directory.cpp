@@ -215,6 +215,24 @@ ShellPayload payload_of(const Value& gltf, const Value& level, std::size_t binar
   return payload;
 }
 
+ShellFileLevel file_level(const ShellPayload& payload) {
+  return {payload.counts.triangles, payload.counts.vertices, payload.size, payload.lo, payload.hi};
+}
+
+void add_coarse(ShellDirectory& directory, const Value& gltf, const Value& level,
+                std::size_t binary_size) {
+  directory.coarse.emplace_back();
+  std::optional<ShellFileLevel> stated;
+  if (level.has("coarse")) {
+    if (!directory.info.coarse)
+      level["coarse"].expect("none where the set states no coarse copies");
+    if (!directory.payloads.back()) level["coarse"].expect("none of an empty shell");
+    directory.coarse.back() = payload_of(gltf, level["coarse"], binary_size);
+    stated = file_level(*directory.coarse.back());
+  }
+  if (directory.info.coarse) directory.info.coarse->levels.push_back(stated);
+}
+
 void add_level(ShellDirectory& directory, const Value& gltf, const Value& level,
                std::size_t binary_size) {
   Shell shell;
@@ -231,22 +249,32 @@ void add_level(ShellDirectory& directory, const Value& gltf, const Value& level,
     return;
   }
   const ShellPayload payload = payload_of(gltf, level, binary_size);
-  directory.info.levels.push_back(
-      {payload.counts.triangles, payload.counts.vertices, payload.size, payload.lo, payload.hi});
+  directory.info.levels.push_back(file_level(payload));
   directory.payloads.emplace_back(payload);
 }
 
 /// One byte may stand for many triangles in one shell; the file as a whole is held to the same.
 void check_total(const ShellDirectory& directory, std::size_t binary_size, std::string_view file) {
   std::size_t triangles = 0;
-  for (const ShellFileLevel& level : directory.info.levels) {
-    triangles += std::min(level.triangles, plausible_triangles(binary_size) + 1);
+  std::vector<std::optional<ShellPayload>> payloads = directory.payloads;
+  payloads.insert(payloads.end(), directory.coarse.begin(), directory.coarse.end());
+  for (const std::optional<ShellPayload>& payload : payloads) {
+    if (!payload) continue;
+    triangles += std::min(payload->counts.triangles, plausible_triangles(binary_size) + 1);
     if (triangles > plausible_triangles(binary_size)) {
       throw Error(ErrorCode::BadFile,
                   fmt::format("{}: found {} or more triangles in {} bytes, expected at most {}",
                               file, triangles, binary_size, plausible_triangles(binary_size)));
     }
   }
+}
+
+ShellFileCoarse coarse_of(const Value& value) {
+  ShellFileCoarse coarse;
+  coarse.tolerance = value["tolerance"].number();
+  if (!(coarse.tolerance >= 0.0)) value["tolerance"].expect("0 or more");
+  if (value.has("max")) coarse.error_json = value["max"].raw().dump();
+  return coarse;
 }
 
 void read_description(ShellFileInfo& info, const Value& extras, std::string_view file) {
@@ -261,6 +289,7 @@ void read_description(ShellFileInfo& info, const Value& extras, std::string_view
   // Files of earlier builds pruned nothing and say nothing of it.
   if (extras.has("pruned")) set.pruned = pruning_of(extras["pruned"]);
   if (extras.has("certificate")) info.certificate_json = extras["certificate"].raw().dump();
+  if (extras.has("coarse")) info.coarse = coarse_of(extras["coarse"]);
 }
 
 }  // namespace
@@ -281,6 +310,7 @@ ShellDirectory parse_shell_directory(std::string_view text, std::size_t binary_s
   const Value levels = extras["levels"];
   for (std::size_t k = 0; k < levels.length(); ++k) {
     add_level(directory, gltf, levels[k], binary_size);
+    add_coarse(directory, gltf, levels[k], binary_size);
   }
   check_total(directory, binary_size, name);
   if (const auto objection = shell_set_objection(directory.info.set)) {

@@ -26,6 +26,7 @@ struct ShellPayload {
 struct ShellDirectory {
   ShellFileInfo info;                                 ///< all but `file_bytes`
   std::vector<std::optional<ShellPayload>> payloads;  ///< one a level; none if it is empty
+  std::vector<std::optional<ShellPayload>> coarse;    ///< of coarse copies, likewise
 };
 
 /// Understands a shell file's JSON.

@@ -78,16 +78,44 @@ Json pruned_json(const Pruning& pruned) {
           {"largest_emission", pruned.largest_emission}};
 }
 
-Json parsed_certificate(const std::string& text) {
-  Json certificate = Json::parse(text, nullptr, false);
-  if (certificate.is_discarded()) {
+Json parsed_json(const std::string& text, std::string_view what) {
+  Json value = Json::parse(text, nullptr, false);
+  if (value.is_discarded()) {
     throw Error(ErrorCode::BadArgument,
-                fmt::format("certificate: found '{:.60}', expected JSON", text));
+                fmt::format("{}: found '{:.60}', expected JSON", what, text));
   }
-  return certificate;
+  return value;
 }
 
-Json extras_json(const ShellSet& set, std::span<const std::optional<StoredShell>> stored,
+Json coarse_level_json(const StoredShell& stored, std::size_t mesh_index) {
+  return {{"mesh", mesh_index},
+          {"triangles", stored.counts.triangles},
+          {"vertices", stored.counts.vertices},
+          {"checksum", checksum_text(stored.checksum)}};
+}
+
+/// Meshes are numbered in the order of their bytes: the shells', then the coarse copies'.
+Json levels_json(const ShellSet& set, const StoredSet& stored) {
+  Json levels = Json::array();
+  std::size_t mesh_index = 0;
+  for (std::size_t k = 0; k < set.shells.size(); ++k) {
+    levels.push_back(level_json(set.shells[k], stored.shells[k], mesh_index));
+    if (stored.shells[k]) ++mesh_index;
+  }
+  for (std::size_t k = 0; k < stored.coarse.shells.size(); ++k) {
+    const auto& copy = stored.coarse.shells[k];
+    if (copy) levels[k]["coarse"] = coarse_level_json(*copy, mesh_index++);
+  }
+  return levels;
+}
+
+Json coarse_json(const StoredCoarse& coarse) {
+  Json json = {{"tolerance", coarse.tolerance}};
+  if (!coarse.error_json.empty()) json["max"] = parsed_json(coarse.error_json, "coarse copies");
+  return json;
+}
+
+Json extras_json(const ShellSet& set, const StoredSet& stored,
                  const std::string& certificate_json) {
   Json nacre = {{"format", shell_file::kFormatVersion},
                 {"volume", volume_json(set.volume)},
@@ -97,16 +125,14 @@ Json extras_json(const ShellSet& set, std::span<const std::optional<StoredShell>
                 {"center_mm", json_of(set.center_mm)},
                 {"grid", grid_json(*set.grid)},
                 {"pruned", pruned_json(set.pruned)},
-                {"levels", Json::array()}};
+                {"levels", levels_json(set, stored)}};
   for (const EmissionKnot& knot : set.emission) {
     nacre["emission"].push_back({knot.value, knot.emission});
   }
-  std::size_t mesh_index = 0;
-  for (std::size_t k = 0; k < set.shells.size(); ++k) {
-    nacre["levels"].push_back(level_json(set.shells[k], stored[k], mesh_index));
-    if (stored[k]) ++mesh_index;
+  if (!stored.coarse.shells.empty()) nacre["coarse"] = coarse_json(stored.coarse);
+  if (!certificate_json.empty()) {
+    nacre["certificate"] = parsed_json(certificate_json, "certificate");
   }
-  if (!certificate_json.empty()) nacre["certificate"] = parsed_certificate(certificate_json);
   return {{"nacre", nacre}};
 }
 
@@ -133,10 +159,9 @@ Json material_json(const std::string& name, double brightness) {
           {"extensions", {{shell_file::kUnlitExtension, Json::object()}}}};
 }
 
-void append_shell(Json& gltf, const std::string& name, const Shell& shell,
-                  const StoredShell& stored) {
+void append_mesh(Json& gltf, const std::string& name, const Shell& shell,
+                 const StoredShell& stored) {
   const std::size_t mesh_index = gltf["meshes"].size();
-  gltf["nodes"].push_back({{"name", name}, {"mesh", mesh_index}});
   gltf["meshes"].push_back({{"name", name}, {"primitives", list_of(primitive_json(mesh_index))}});
   gltf["materials"].push_back(material_json(name, shell.representative));
   gltf["accessors"].push_back({{"componentType", shell_file::kComponentFloat},
@@ -151,23 +176,40 @@ void append_shell(Json& gltf, const std::string& name, const Shell& shell,
       {{"buffer", 0}, {"byteOffset", stored.offset}, {"byteLength", stored.size}});
 }
 
+void append_shell(Json& gltf, const std::string& name, const Shell& shell,
+                  const StoredShell& stored) {
+  const std::size_t mesh_index = gltf["meshes"].size();  // members move when others are added
+  gltf["nodes"].push_back({{"name", name}, {"mesh", mesh_index}});
+  append_mesh(gltf, name, shell, stored);
+}
+
+/// No node refers to them: a viewer that knows nothing of them shows the shells alone.
+void append_coarse(Json& gltf, const ShellSet& set, const StoredCoarse& coarse) {
+  for (std::size_t k = 0; k < coarse.shells.size(); ++k) {
+    if (!coarse.shells[k]) continue;
+    append_mesh(gltf, fmt::format("coarse shell {}", k + 1), set.shells[k], *coarse.shells[k]);
+  }
+}
+
 }  // namespace
 
-std::string shell_file_json(const ShellSet& set, std::span<const std::optional<StoredShell>> stored,
-                            std::size_t binary_size, const std::string& certificate_json) {
+std::string shell_file_json(const ShellSet& set, const StoredSet& stored,
+                            const std::string& certificate_json) {
   Json gltf = {{"asset", {{"version", "2.0"}, {"generator", kGenerator}}},
                {"scene", 0},
                {"scenes", list_of({{"nodes", list_of(0)}})}};
   gltf["nodes"] = list_of({{"name", "shells"}, {"matrix", root_matrix()}});
   for (std::size_t k = 0; k < set.shells.size(); ++k) {
-    if (stored[k]) append_shell(gltf, fmt::format("shell {}", k + 1), set.shells[k], *stored[k]);
+    if (!stored.shells[k]) continue;
+    append_shell(gltf, fmt::format("shell {}", k + 1), set.shells[k], *stored.shells[k]);
   }
+  append_coarse(gltf, set, stored.coarse);
   // glTF has no empty arrays, and no extension that nothing uses.
   const std::size_t node_count = gltf["nodes"].size();
   if (node_count > 1) {
     gltf["extensionsUsed"] = {shell_file::kDracoExtension, shell_file::kUnlitExtension};
     gltf["extensionsRequired"] = list_of(shell_file::kDracoExtension);
-    gltf["buffers"] = list_of({{"byteLength", binary_size}});
+    gltf["buffers"] = list_of({{"byteLength", stored.binary_size}});
   }
   // Only now: members of an ordered object move when others are added.
   Json& root = gltf["nodes"][0];

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <optional>
-#include <span>
 #include <string>
+#include <vector>
 
 #include "core/shell_set.h"
 #include "io/draco_guard.h"
@@ -22,13 +22,25 @@ struct StoredShell {
   glm::vec3 hi{0.0f};
 };
 
+/// Coarse copies in the binary chunk, see `CoarseShells`.
+struct StoredCoarse {
+  std::vector<std::optional<StoredShell>> shells;  ///< one a level; none: there are no copies
+  double tolerance = 0.0;
+  std::string error_json = {};
+};
+
+/// What the binary chunk holds.
+struct StoredSet {
+  std::vector<std::optional<StoredShell>> shells;  ///< one a level; none for an empty one
+  StoredCoarse coarse = {};
+  std::size_t binary_size = 0;  ///< bytes of the chunk
+};
+
 /// The JSON chunk of a shell file (docs/shell_file.md).
 ///
-/// @param stored            one a shell; none for an empty level
-/// @param binary_size       bytes of the binary chunk
 /// @param certificate_json  a JSON value, or empty
-/// @throws Error  BadArgument if the certificate is not JSON
-std::string shell_file_json(const ShellSet& set, std::span<const std::optional<StoredShell>> stored,
-                            std::size_t binary_size, const std::string& certificate_json);
+/// @throws Error  BadArgument if the certificate or the error of coarse copies is not JSON
+std::string shell_file_json(const ShellSet& set, const StoredSet& stored,
+                            const std::string& certificate_json);
 
 }  // namespace nacre

@@ -61,6 +61,13 @@ std::vector<std::size_t> wanted_shells(const ShellDirectory& directory,
   return wanted;
 }
 
+/// What to decode of a shell: its coarse copy where that is asked for and there is one.
+const ShellPayload& payload_to_decode(const ShellDirectory& directory, std::size_t k,
+                                      const ShellReadOptions& options) {
+  const bool is_coarse = options.coarse && directory.coarse[k].has_value();
+  return is_coarse ? *directory.coarse[k] : *directory.payloads[k];
+}
+
 ShellSet read(const ByteSource& source, std::string_view name, const ShellReadOptions& options) {
   OpenedShellFile file = open(source, name);
   ShellSet set = std::move(file.directory.info.set);
@@ -69,7 +76,8 @@ ShellSet read(const ByteSource& source, std::string_view name, const ShellReadOp
   tbb::parallel_for(std::size_t{0}, wanted.size(), [&](std::size_t i) {
     const std::size_t k = wanted[i];
     try {
-      set.shells[k].surface = decode(source, file.binary_offset, *file.directory.payloads[k]);
+      set.shells[k].surface =
+          decode(source, file.binary_offset, payload_to_decode(file.directory, k, options));
     } catch (const Error& error) {
       throw Error(error.code(), fmt::format("{}: shell {}: {}", name, k + 1, error.what()));
     }

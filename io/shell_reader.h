@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -23,6 +24,13 @@ struct ShellFileLevel {
   glm::dvec3 hi_mm{0.0};
 };
 
+/// What a shell file says of its coarse copies (`CoarseShells`).
+struct ShellFileCoarse {
+  double tolerance = 0.0;  ///< emission error that their simplification was allowed
+  std::string error_json;  ///< of their pictures; empty if the file does not state it
+  std::vector<std::optional<ShellFileLevel>> levels;  ///< one a shell; none: it has no copy
+};
+
 /// What a shell file holds, without its surfaces.
 struct ShellFileInfo {
   ShellSet set;                        ///< every surface empty
@@ -30,12 +38,15 @@ struct ShellFileInfo {
   int format_version = 0;
   std::string generator;         ///< the program that wrote the file
   std::string certificate_json;  ///< empty if the file has none
+  std::optional<ShellFileCoarse> coarse;
   std::size_t file_bytes = 0;
 };
 
 struct ShellReadOptions {
   /// Whether to decode a shell; shells that are not wanted have an empty surface. Empty: all.
   std::function<bool(std::size_t shell)> wanted = {};
+  /// Whether to decode coarse copies in place of the shells that have one.
+  bool coarse = false;
   ProgressCallback progress = {};
 };
 

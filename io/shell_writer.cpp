@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <initializer_list>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -75,7 +76,9 @@ class ByteWriter {
   std::vector<std::byte> bytes_;
 };
 
-std::vector<std::byte> glb(const std::string& json, std::span<const CompressedShell> shells,
+/// @param parts  what the binary chunk holds, in order
+std::vector<std::byte> glb(const std::string& json,
+                           std::initializer_list<std::span<const CompressedShell>> parts,
                            std::size_t binary_size) {
   using namespace shell_file;
   const std::size_t json_size = aligned(json.size());
@@ -97,9 +100,11 @@ std::vector<std::byte> glb(const std::string& json, std::span<const CompressedSh
   if (binary_size > 0) {
     out.number(binary_size);
     out.number(kBinaryChunk);
-    for (const CompressedShell& shell : shells) {
-      out.append(shell.bytes.data(), shell.bytes.size());
-      out.pad('\0');
+    for (const std::span<const CompressedShell> shells : parts) {
+      for (const CompressedShell& shell : shells) {
+        out.append(shell.bytes.data(), shell.bytes.size());
+        out.pad('\0');
+      }
     }
   }
   return out.take();
@@ -108,6 +113,44 @@ std::vector<std::byte> glb(const std::string& json, std::span<const CompressedSh
 void check_set(const ShellSet& set) {
   if (const auto objection = shell_set_objection(set)) {
     throw Error(ErrorCode::BadArgument, "shell set: " + *objection);
+  }
+}
+
+/// Gives shells their places in the binary chunk, from its present end.
+std::vector<std::optional<StoredShell>> store(std::span<const CompressedShell> shells,
+                                              std::size_t& binary_size) {
+  std::vector<std::optional<StoredShell>> stored;
+  for (const CompressedShell& shell : shells) {
+    stored.emplace_back();
+    if (shell.bytes.empty()) continue;
+    stored.back() = {.offset = binary_size,
+                     .size = shell.bytes.size(),
+                     .checksum = shell.checksum,
+                     .counts = {shell.triangles, shell.vertices},
+                     .lo = shell.lo,
+                     .hi = shell.hi};
+    binary_size += aligned(shell.bytes.size());
+  }
+  return stored;
+}
+
+void check_coarse(const CoarseShells& coarse, std::span<const CompressedShell> shells) {
+  const bool is_tolerance = coarse.tolerance >= 0.0 && std::isfinite(coarse.tolerance);
+  if (!is_tolerance) {
+    throw Error(
+        ErrorCode::BadArgument,
+        fmt::format("coarse copies: found tolerance {}, expected 0 or more", coarse.tolerance));
+  }
+  if (coarse.shells.size() != shells.size()) {
+    throw Error(ErrorCode::BadArgument,
+                fmt::format("coarse copies: found {}, expected {}, one a level",
+                            coarse.shells.size(), shells.size()));
+  }
+  for (std::size_t k = 0; k < shells.size(); ++k) {
+    if (coarse.shells[k].bytes.empty() || !shells[k].bytes.empty()) continue;
+    throw Error(
+        ErrorCode::BadArgument,
+        fmt::format("coarse copies: found one of level {}, expected none of an empty shell", k));
   }
 }
 
@@ -131,21 +174,17 @@ std::vector<std::byte> assemble_shell_set(const ShellSet& set,
                                           std::span<const CompressedShell> shells,
                                           const ShellWriteOptions& options) {
   check_set(set);
-  std::vector<std::optional<StoredShell>> stored;
   std::size_t binary_size = 0;
-  for (const CompressedShell& shell : shells) {
-    stored.emplace_back();
-    if (shell.bytes.empty()) continue;
-    stored.back() = {.offset = binary_size,
-                     .size = shell.bytes.size(),
-                     .checksum = shell.checksum,
-                     .counts = {shell.triangles, shell.vertices},
-                     .lo = shell.lo,
-                     .hi = shell.hi};
-    binary_size += aligned(shell.bytes.size());
+  StoredSet stored{.shells = store(shells, binary_size)};
+  std::span<const CompressedShell> copies;
+  if (options.coarse) {
+    check_coarse(*options.coarse, shells);
+    copies = options.coarse->shells;
+    stored.coarse = {store(copies, binary_size), options.coarse->tolerance,
+                     options.coarse->error_json};
   }
-  return glb(shell_file_json(set, stored, binary_size, options.certificate_json), shells,
-             binary_size);
+  stored.binary_size = binary_size;
+  return glb(shell_file_json(set, stored, options.certificate_json), {shells, copies}, binary_size);
 }
 
 std::vector<std::byte> encode_shell_set(const ShellSet& set, const ShellWriteOptions& options) {

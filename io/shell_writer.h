@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,14 +14,6 @@
 
 namespace nacre {
 
-struct ShellWriteOptions {
-  /// Any JSON value, written as `certificate`; empty writes none.
-  std::string certificate_json = {};
-  /// Draco's effort: 0 is fastest, 10 smallest.
-  int compression = 10;
-  ProgressCallback progress = {};
-};
-
 /// One shell compressed, as it lies in the file.
 struct CompressedShell {
   std::vector<std::byte> bytes;  ///< none for an empty surface
@@ -29,6 +22,24 @@ struct CompressedShell {
   std::size_t vertices = 0;
   glm::vec3 lo{0.0f};  ///< bounds of the positions
   glm::vec3 hi{0.0f};
+};
+
+/// Coarser copies of a set's shells, which the file holds beside them.
+struct CoarseShells {
+  double tolerance = 0.0;  ///< emission error that their simplification was allowed
+  std::vector<CompressedShell> shells = {};  ///< one a level; without bytes where there is no copy
+  /// Any JSON value that states the error of their pictures, written as `coarse.max`; empty: none.
+  std::string error_json = {};
+};
+
+struct ShellWriteOptions {
+  /// Any JSON value, written as `certificate`; empty writes none.
+  std::string certificate_json = {};
+  /// Draco's effort: 0 is fastest, 10 smallest.
+  int compression = 10;
+  /// On the set's own grid; none: the file has no coarse copies.
+  std::optional<CoarseShells> coarse = {};
+  ProgressCallback progress = {};
 };
 
 /// Compresses one surface of a set, which is gone as soon as its last copy is needed no more.
@@ -42,7 +53,7 @@ CompressedShell compress_shell(TriangleMesh&& surface, const QuantizationGrid& g
 ///
 /// @param set     its surfaces are not looked at
 /// @param shells  one for each of its levels
-/// @throws Error  as `encode_shell_set`
+/// @throws Error  as `encode_shell_set`; BadArgument if there are not as many coarse copies
 std::vector<std::byte> assemble_shell_set(const ShellSet& set,
                                           std::span<const CompressedShell> shells,
                                           const ShellWriteOptions& options = {});
@@ -57,7 +68,8 @@ std::vector<std::byte> assemble_shell_set(const ShellSet& set,
 ///             ascending; an empty surface is written as a level without a mesh
 /// @throws Error  BadArgument if the set has no exact grid, a position is not on it, an index is
 ///                out of range, a number is not finite, levels do not ascend, or the certificate
-///                is not JSON; Unsupported if the file would exceed the 4 GiB of binary glTF
+///                or the error of coarse copies is not JSON; Unsupported if the file would exceed
+///                the 4 GiB of binary glTF
 std::vector<std::byte> encode_shell_set(const ShellSet& set, const ShellWriteOptions& options = {});
 
 /// Writes `encode_shell_set` to a file, which appears whole or not at all.

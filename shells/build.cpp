@@ -144,20 +144,28 @@ bool is_simplifying(const BuildOptions& options) {
          options.target_triangles > 0;
 }
 
+/// What simplification must keep of a shell, but for its tolerances.
+SimplifyOptions bounds_of(const TrilinearField& field, const Volume& volume, const ShellSet& set) {
+  const glm::dvec3 spacing = spacing_mm(volume.world_from_voxel);
+  SimplifyOptions bounds;
+  bounds.samples_from_mm = field.voxel_from_mm();
+  bounds.spacing_mm = std::min({spacing.x, spacing.y, spacing.z});
+  bounds.grid = set.grid;
+  return bounds;
+}
+
 void simplify_shells(const Volume& volume, const EmissionMap& emission, const BuildOptions& options,
                      std::span<const std::size_t> triangles,
                      const std::function<TriangleMesh(std::size_t)>& source, ShellSet& set) {
   const auto extracted_triangles = std::reduce(triangles.begin(), triangles.end());
   const TrilinearField field(volume);
-  const glm::dvec3 spacing = spacing_mm(volume.world_from_voxel);
+  const SimplifyOptions common = bounds_of(field, volume, set);
   const std::size_t memory = working_memory(volume);
   for_each_shell(triangles, memory, options.progress, "simplify", [&](std::size_t k) {
     Shell& shell = set.shells[k];
     shell.surface = source(k);
-    SimplifyOptions bounds;
+    SimplifyOptions bounds = common;
     bounds.tolerance_mm = options.tolerance_mm;
-    bounds.samples_from_mm = field.voxel_from_mm();
-    bounds.spacing_mm = std::min({spacing.x, spacing.y, spacing.z});
     if (options.emission_tolerance > 0.0) {
       bounds.error_tolerance = options.emission_tolerance;
       bounds.field = LevelField(field, emission, shell.emission);
@@ -168,13 +176,33 @@ void simplify_shells(const Volume& volume, const EmissionMap& emission, const Bu
                              {.error_tolerance = std::max(options.emission_tolerance, kFineEnough),
                               .reach_mm = bounds.spacing_mm});
     }
-    bounds.grid = set.grid;
     // Every shell keeps the same part of its triangles.
     bounds.target_triangles = static_cast<std::size_t>(
         static_cast<double>(options.target_triangles) /
         static_cast<double>(std::max<std::size_t>(extracted_triangles, 1)) * extracted);
     shell.surface = simplify(shell.surface, bounds);
   });
+}
+
+/// Copies of simplified shells, simplified further: what the first simplification left is a
+/// fraction of what was contoured, so that this takes a fraction of its time.
+std::vector<TriangleMesh> coarser_copies(const Volume& volume, const EmissionMap& emission,
+                                         const BuildOptions& options,
+                                         std::span<const std::size_t> triangles,
+                                         const ShellSet& set) {
+  std::vector<TriangleMesh> copies(set.shells.size());
+  const TrilinearField field(volume);
+  const SimplifyOptions common = bounds_of(field, volume, set);
+  const std::size_t memory = working_memory(volume);
+  for_each_shell(triangles, memory, options.progress, "coarsen", [&](std::size_t k) {
+    const Shell& shell = set.shells[k];
+    if (shell.surface.triangles.empty()) return;
+    SimplifyOptions bounds = common;
+    bounds.error_tolerance = options.coarse_tolerance;
+    bounds.field = LevelField(field, emission, shell.emission);
+    copies[k] = snap(simplify(shell.surface, bounds), *set.grid).mesh;
+  });
+  return copies;
 }
 
 /// What snapping takes from, and gives to.
@@ -220,7 +248,7 @@ void snap_shells(std::span<const std::size_t> triangles, std::size_t memory, con
 BuiltShells build(const Volume& volume, const EmissionMap& emission, const BuildOptions& options,
                   const SurfaceSink& sink, const std::function<void()>& volume_done) {
   check_levels(options.levels);
-  BuiltShells built{describe(volume, emission, options), {}};
+  BuiltShells built{.set = describe(volume, emission, options)};
   const GridChoice grid =
       choose_grid(volume.dims, volume.world_from_voxel, {.bits = options.quantization_bits});
   built.set.grid = grid.grid;
@@ -247,6 +275,12 @@ BuiltShells build(const Volume& volume, const EmissionMap& emission, const Build
       triangles[k] = built.set.shells[k].surface.triangles.size();
     }
     ends.source = [&](std::size_t k) { return std::exchange(built.set.shells[k].surface, {}); };
+    const std::size_t left = std::reduce(triangles.begin(), triangles.end());
+    if (options.coarse_tolerance > 0.0 && left > options.coarse_above_triangles) {
+      const Stopwatch coarsening;
+      built.copies = coarser_copies(volume, emission, options, triangles, built.set);
+      report.coarsen_seconds = coarsening.seconds();
+    }
   }
   volume_done();
   snap_shells(triangles, memory, ends, options, built.set, report);

@@ -25,9 +25,13 @@ struct BuildOptions {
   int quantization_bits = 0;          ///< 0 chooses, see `choose_grid`
   double min_component_mm3 = 0.0;     ///< specks are left out, see `PruneOptions`
   bool prune_inner = false;           ///< components inside their own shell, see `PruneOptions`
+  /// Emission error of the coarser copies that a simplified set gets beside its shells; 0: none.
+  double coarse_tolerance = 0.0;
+  /// Only a set of more triangles than this gets them.
+  std::size_t coarse_above_triangles = 0;
   /// Folder of a nameless file where large surfaces wait for their turn; none: memory holds them.
   std::optional<std::filesystem::path> scratch_folder = {};
-  ProgressCallback progress = {};  ///< stages "extract", "simplify", "snap"
+  ProgressCallback progress = {};  ///< stages "extract", "simplify", "coarsen", "snap"
 };
 
 /// What a build took, and what it left.
@@ -39,13 +43,16 @@ struct BuildReport {
   bool is_grid_coarse = false;  ///< see `GridChoice`
   double extract_seconds = 0.0;
   double simplify_seconds = 0.0;
+  double coarsen_seconds = 0.0;
   double snap_seconds = 0.0;
   double sink_seconds = 0.0;  ///< in the sink, its share of the time that snapping and it took
 };
 
 struct BuiltShells {
   ShellSet set;
-  BuildReport report;
+  /// The coarser copies, one a shell, if any were made: closed and on the grid as the shells are.
+  std::vector<TriangleMesh> copies = {};
+  BuildReport report = {};
 };
 
 /// The shells of a volume: contoured, simplified, snapped to one grid and cleaned, ready to be

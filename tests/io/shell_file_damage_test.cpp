@@ -243,6 +243,52 @@ TEST(DamagedShellFile, CountsThatTheBytesCannotHoldAreRefusedBeforeDecoding) {
                  [](ordered_json& json) { json["accessors"][0]["count"] = 1; });
 }
 
+/// What reading the coarse copies of a changed file says.
+std::string coarse_refusal(const Bytes& file) {
+  try {
+    decode_shell_set(file, kName, {.coarse = true});
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(DamagedShellFile, AnyBitFlippedInACoarseCopyIsFound) {
+  const Bytes file = testing::small_file_with_copies();
+  const ordered_json view = json_of(file)["bufferViews"][4];  // the second copy
+  const std::size_t begin = binary_start(file) + view["byteOffset"].get<std::size_t>();
+  std::mt19937 random(7);
+  for (std::size_t i = 0; i < 50; ++i) {
+    Bytes damaged = file;
+    const std::size_t at = begin + random() % view["byteLength"].get<std::size_t>();
+    damaged[at] ^= static_cast<std::byte>(1u << (random() % 8));
+    EXPECT_NE(coarse_refusal(damaged).find("shell 2: found checksum"), std::string::npos);
+    EXPECT_EQ(refusal(damaged), "");  // the shells themselves are whole
+  }
+}
+
+TEST(DamagedShellFile, SaysWhereCoarseCopiesAreWrong) {
+  const Bytes file = testing::small_file_with_copies();
+  const auto expect = [&](const std::string& part,
+                          const std::function<void(ordered_json&)>& change) {
+    const std::string message = refusal(with_json(file, change));
+    EXPECT_NE(message.find(part), std::string::npos) << "'" << message << "', expected " << part;
+  };
+  expect("coarse", [](ordered_json& json) { extras(json).erase("coarse"); });
+  expect("coarse.tolerance", [](ordered_json& json) { extras(json)["coarse"]["tolerance"] = -1; });
+  expect("meshes[77]",
+         [](ordered_json& json) { extras(json)["levels"][0]["coarse"]["mesh"] = 77; });
+  expect("levels[0].coarse",
+         [](ordered_json& json) { extras(json)["levels"][0]["coarse"] = nullptr; });
+  expect("levels[3].coarse", [](ordered_json& json) {
+    extras(json)["levels"][3]["coarse"] = extras(json)["levels"][0]["coarse"];
+  });
+  expect("at most", [](ordered_json& json) {
+    extras(json)["levels"][0]["coarse"]["triangles"] = 1'400'000'000;
+    json["accessors"][7]["count"] = std::size_t{3} * 1'400'000'000;
+  });
+}
+
 TEST(DamagedShellFile, DeepOrMalformedJsonIsRefused) {
   EXPECT_NE(refusal(with_json_text(small_file(), std::string(1'000'000, '['))).find("deeper"),
             std::string::npos);

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "core/error.h"
@@ -29,6 +31,12 @@ ShellSet there_and_back(const ShellSet& set) {
 }
 
 using Corner = std::array<float, 3>;
+
+std::size_t json_size(const std::vector<std::byte>& file) {
+  std::uint32_t size = 0;
+  std::memcpy(&size, file.data() + 12, sizeof(size));
+  return size;
+}
 
 /// A mesh's triangles by position, each beginning with its least corner: what is left of a mesh
 /// when the order of vertices and triangles is left out.
@@ -144,6 +152,59 @@ TEST(ShellFile, DecodesOnlyWhatIsWanted) {
   const ShellSet back = decode_shell_set(encode_shell_set(small_shell_set()), kName, options);
   EXPECT_TRUE(back.shells[0].surface.triangles.empty());
   EXPECT_FALSE(back.shells[1].surface.triangles.empty());
+}
+
+TEST(ShellFile, KeepsCoarseCopiesBesideTheShells) {
+  const std::vector<std::byte> file = testing::small_file_with_copies();
+  const ShellSet fine = decode_shell_set(file, kName);
+  const ShellSet coarse = decode_shell_set(file, kName, {.coarse = true});
+  // The third shell has no copy: what there is of it is its own surface.
+  ShellSet expected = testing::small_coarse_set();
+  expected.shells[2].surface = small_shell_set().shells[2].surface;
+  for (std::size_t k = 0; k < fine.shells.size(); ++k) {
+    EXPECT_EQ(triangles_by_position(fine.shells[k].surface),
+              triangles_by_position(small_shell_set().shells[k].surface));
+    EXPECT_EQ(triangles_by_position(coarse.shells[k].surface),
+              triangles_by_position(expected.shells[k].surface));
+  }
+}
+
+TEST(ShellFile, SaysWhatItsCoarseCopiesAre) {
+  const ShellFileInfo info = parse_shell_file_info(testing::small_file_with_copies(), kName);
+  ASSERT_TRUE(info.coarse.has_value());
+  EXPECT_EQ(info.coarse->tolerance, 0.1);
+  EXPECT_EQ(info.coarse->error_json, R"({"psnr_db":40.5})");
+  ASSERT_EQ(info.coarse->levels.size(), 4u);
+  ASSERT_TRUE(info.coarse->levels[0].has_value());
+  EXPECT_EQ(info.coarse->levels[0]->triangles,
+            testing::small_coarse_set().shells[0].surface.triangles.size());
+  EXPECT_GT(info.coarse->levels[0]->bytes, 0u);
+  EXPECT_FALSE(info.coarse->levels[2].has_value());
+  EXPECT_FALSE(info.coarse->levels[3].has_value());
+  EXPECT_FALSE(parse_shell_file_info(encode_shell_set(small_shell_set()), kName).coarse);
+}
+
+// Node by node, as a viewer goes that knows nothing of extras.nacre.
+TEST(ShellFile, NoNodeShowsACoarseCopy) {
+  const auto nodes = [](const std::vector<std::byte>& file) {
+    const auto* text = reinterpret_cast<const char*>(file.data() + 20);
+    nlohmann::ordered_json json = nlohmann::ordered_json::parse(text, text + json_size(file));
+    json["nodes"][0].erase("extras");
+    return json["nodes"].dump();
+  };
+  EXPECT_EQ(nodes(testing::small_file_with_copies()), nodes(encode_shell_set(small_shell_set())));
+}
+
+TEST(ShellFile, RefusesCopiesOfWhatIsNotThere) {
+  ShellWriteOptions options;
+  options.coarse = CoarseShells{};
+  EXPECT_THROW(encode_shell_set(small_shell_set(), options), Error);
+  const ShellSet set = small_shell_set();
+  options.coarse->shells.resize(set.shells.size());
+  EXPECT_NO_THROW(encode_shell_set(set, options));
+  options.coarse->shells.back() =
+      compress_shell(TriangleMesh(set.shells.front().surface), *set.grid);
+  EXPECT_THROW(encode_shell_set(set, options), Error);
 }
 
 TEST(ShellFile, CarriesACertificate) {

@@ -37,4 +37,22 @@ ShellSet small_shell_set() {
   return set;
 }
 
+ShellSet small_coarse_set() {
+  ShellSet set = small_shell_set();
+  const TriangleMesh two = together(moved(sphere_surface(2.0f, 3), {-4.0f, 0.0f, 0.0f}),
+                                    moved(sphere_surface(3.0f, 3), {4.0f, 0.0f, 0.0f}));
+  set.shells[0].surface = on_grid(*set.grid, sphere_surface(8.0f, 3));
+  set.shells[1].surface = on_grid(*set.grid, two);
+  set.shells[2].surface = {};
+  return set;
+}
+
+std::vector<std::byte> small_file_with_copies() {
+  CoarseShells coarse{.tolerance = 0.1, .error_json = R"({"psnr_db":40.5})"};
+  for (Shell& shell : small_coarse_set().shells) {
+    coarse.shells.push_back(compress_shell(std::move(shell.surface), *small_shell_set().grid));
+  }
+  return encode_shell_set(small_shell_set(), {.coarse = std::move(coarse)});
+}
+
 }  // namespace nacre::testing

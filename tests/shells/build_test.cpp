@@ -176,6 +176,54 @@ TEST(Build, TellsItsProgress) {
   EXPECT_EQ(stages, (std::set<std::string>{"extract", "simplify", "snap"}));
 }
 
+BuildOptions with_copies(std::size_t above_triangles) {
+  BuildOptions options;
+  options.levels = uniform_levels(4);
+  options.emission_tolerance = 0.01;
+  options.coarse_tolerance = 0.08;
+  options.coarse_above_triangles = above_triangles;
+  return options;
+}
+
+// The ball's value falls linearly, so that where a vertex lies says its emission.
+TEST(Build, CoarseCopiesAreClosedOnTheGridAndWithinTheirTolerance) {
+  const BuiltShells built = build_shells(ball(), EmissionMap::window(0, 200), with_copies(0));
+  const glm::dvec3 centre = glm::dvec3(15.3, 15.6, 15.9) - glm::dvec3(15.5);
+  ASSERT_EQ(built.copies.size(), 4u);
+  for (std::size_t k = 0; k < 4; ++k) {
+    const TriangleMesh& copy = built.copies[k];
+    EXPECT_TRUE(check_shell(copy).is_sound()) << "shell " << k;
+    EXPECT_LT(copy.triangles.size(), built.set.shells[k].surface.triangles.size() / 2);
+    for (const glm::vec3& p : copy.positions) {
+      ASSERT_TRUE(is_on(*built.set.grid, p));
+      const double emission = 1.0 - glm::distance(glm::dvec3(p), centre) / kRadius;
+      EXPECT_NEAR(emission, built.set.shells[k].emission, 0.08 + 0.02);  // and interpolation's
+    }
+  }
+}
+
+TEST(Build, CoarseCopiesLeaveTheShellsAsTheyAre) {
+  const EmissionMap emission = EmissionMap::window(0, 200);
+  const BuiltShells plain = build_shells(ball(), emission, with_copies(1'000'000));
+  const BuiltShells built = build_shells(ball(), emission, with_copies(0));
+  EXPECT_TRUE(plain.copies.empty());
+  for (std::size_t k = 0; k < 4; ++k) {
+    EXPECT_EQ(plain.set.shells[k].surface.positions, built.set.shells[k].surface.positions);
+    EXPECT_EQ(plain.set.shells[k].surface.triangles, built.set.shells[k].surface.triangles);
+  }
+}
+
+TEST(Build, CoarseCopiesAreTheSameForAnyNumberOfThreads) {
+  const EmissionMap emission = EmissionMap::window(0, 200);
+  const BuiltShells many = build_shells(ball(), emission, with_copies(0));
+  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  const BuiltShells single = build_shells(ball(), emission, with_copies(0));
+  for (std::size_t k = 0; k < 4; ++k) {
+    EXPECT_EQ(many.copies[k].positions, single.copies[k].positions);
+    EXPECT_EQ(many.copies[k].triangles, single.copies[k].triangles);
+  }
+}
+
 TEST(Build, RefusesLevelsOutOfOrder) {
   BuildOptions options;
   options.levels = {{0.5, 0.5}, {0.4, 1.0}};
