@@ -43,6 +43,9 @@ void run_render(const RenderFlags& flags) {
           fmt::format("{}: found a shell set, expected a volume for --method exact", input));
     }
     run_shell_file(flags.exact, flags.draw);
+  } else if (flags.draw.coarse) {
+    throw Error(ErrorCode::BadArgument,
+                fmt::format("{}: found a volume, expected a shell set for --coarse", input));
   } else if (flags.method == "shells" || (flags.method == "auto" && shows_shells(flags))) {
     run_shells_of_volume(flags.exact, flags.draw, flags.shells);
   } else {
@@ -69,6 +72,9 @@ void add_render_verb(CLI::App& app, int& /*status*/) {
   verb->add_flag("--list-backends", flags->list_backends,
                  "Name the OpenGL contexts of this machine");
   add_draw_flags(*verb, flags->draw);
+  verb->add_flag("--coarse", flags->draw.coarse,
+                 "Draw the coarse copies of a set's shells, where the file has them")
+      ->group("Drawing shells");
   add_shell_flags(*verb, flags->shells);
   add_exact_flags(*verb, flags->exact);
   verb->callback([flags] { run_render(*flags); });

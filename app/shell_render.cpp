@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/drawn_copies.h"
 #include "app/flag_values.h"
 #include "app/pruned_shells.h"
 #include "app/renderer_choice.h"
@@ -40,6 +41,7 @@ struct Timing {
 struct Views {
   std::vector<Camera> cameras;
   RenderOptions options;
+  std::optional<DrawnCopies> copies = {};
 };
 
 /// Shell numbers, counted from 1, as indices.
@@ -109,8 +111,8 @@ void upload(ShellRenderer& renderer, const ShellSet& set, const SceneFacts& fact
   renderer.upload_tools(tools);
 }
 
-ordered_json figures_of(const ShellRenderer& renderer, const ExactFlags& flags, const Plan& plan,
-                        const TurntableResult& result, const Timing& timing) {
+ordered_json figures_of(const ShellRenderer& renderer, const ExactFlags& flags, const Views& views,
+                        const Plan& plan, const TurntableResult& result, const Timing& timing) {
   const Image& image = result.last.volume;
   ordered_json json;
   json["backend"] = renderer.backend_name();
@@ -118,6 +120,7 @@ ordered_json figures_of(const ShellRenderer& renderer, const ExactFlags& flags, 
   json["mode"] = flags.picture.mode;
   json["picture"] = {{"width", image.width}, {"height", image.height}};
   if (result.window) json["display"] = {result.window->lo, result.window->hi};
+  if (views.copies) json["coarse"] = copies_json(*views.copies);
   json["passes"] = ordered_json::array();
   for (const Pass& pass : plan.passes) json["passes"].push_back(describe(pass));
   json["left_out"] = ordered_json::array();
@@ -149,6 +152,7 @@ void warn_of_limits(const std::vector<Plan>& plans, Reporter& reporter) {
 void draw_views(ShellRenderer& renderer, const ExactFlags& flags, const DrawFlags& draw,
                 const Views& views, const std::vector<Plan>& plans, Timing timing,
                 Reporter& reporter) {
+  if (draw.explain && views.copies) say_copies(*views.copies, reporter);
   if (draw.explain) say_plan(plans.front(), reporter);
   warn_of_limits(plans, reporter);
   timing.frames.resize(plans.size());
@@ -170,7 +174,7 @@ void draw_views(ShellRenderer& renderer, const ExactFlags& flags, const DrawFlag
       plans.size() == 1 ? "picture" : "pictures", image.width, image.height,
       1e3 * sorted[sorted.size() / 2], renderer.last_frame().triangles, renderer.backend_name(),
       renderer.device_name(), flags.picture.output.empty() ? "" : " -> ", flags.picture.output));
-  reporter.finish(figures_of(renderer, flags, plans.back(), result, timing));
+  reporter.finish(figures_of(renderer, flags, views, plans.back(), result, timing));
 }
 
 /// A file's facts, without decoding it, and those of the tools.
@@ -252,8 +256,9 @@ void run_shell_file(const ExactFlags& flags, const DrawFlags& draw) {
   Timing timing;
   Stopwatch watch;
   const std::vector<Tool> tools = read_tools(flags.scene);
-  const ShellFileInfo info = read_shell_file_info(flags.volume.path);
-  const Views views = views_of(flags, draw, info.set.volume, info.levels.size());
+  ShellFileInfo info = read_shell_file_info(flags.volume.path);
+  Views views = views_of(flags, draw, info.set.volume, info.levels.size());
+  if (draw.coarse) views.copies = take_copies(flags.volume.path, info);
   check_pruning(info.set, views.options, views.cameras, reporter);
   timing.load = watch.lap();
   const SceneFacts facts = facts_of(info, tools);
@@ -265,6 +270,7 @@ void run_shell_file(const ExactFlags& flags, const DrawFlags& draw) {
       flags.volume.path,
       {.wanted =
            [&](std::size_t shell) { return std::binary_search(drawn.begin(), drawn.end(), shell); },
+       .coarse = draw.coarse,
        .progress = reporter.progress()});
   timing.load += watch.lap();
   upload(*renderer, set, facts, tools, plans);

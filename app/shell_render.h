@@ -20,6 +20,7 @@ struct DrawFlags {
   std::string only;
   double detail_px = 0.0;
   bool explain = false;
+  bool coarse = false;  ///< the coarse copies of the shells, where the file has them
 };
 
 /// Adds --backend, --depth-buffer, --target, --occlusion, --hide, --only, --detail and
