@@ -1,6 +1,7 @@
 // `nacre view`: the viewer's page of a shell set or a volume, served or as a file.
 #include <fmt/core.h>
 #include <spawn.h>
+#include <sys/wait.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -12,6 +13,7 @@
 #include <fstream>
 #include <memory>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -84,7 +86,10 @@ void open_on_desktop(const std::string& address) {
   std::string argument = address;
   std::array<char*, 3> arguments{program.data(), argument.data(), nullptr};
   pid_t child = 0;
-  posix_spawnp(&child, program.c_str(), nullptr, nullptr, arguments.data(), environ);
+  if (posix_spawnp(&child, program.c_str(), nullptr, nullptr, arguments.data(), environ) != 0) {
+    return;
+  }
+  std::thread([child] { waitpid(child, nullptr, 0); }).detach();  // no zombie while it is served
 }
 
 void write_page(const std::string& output, const std::vector<std::byte>& set, Reporter& reporter) {

@@ -336,7 +336,9 @@ test("the link of a view shows it again", async () => {
 test("another set is opened by hand", async () => {
   await changes("open", () => page.setInputFiles("#set-file", inFolder("ball.glb")));
   assert.equal(await page.locator(".shell").count(), 2);
-  assert.match(await page.textContent("#facts"), /psnr/i, "its certificate");
+  const facts = await page.textContent("#facts");
+  assert.match(facts, /PSNR [\d.]+ dB over all pixels, [\d.]+ dB over lit ones; RMSE [\d.]+, largest error/, "its certificate");
+  assert.match(facts, /Measured on\d+ views of \d+ × \d+ pixels/);
 });
 
 test("a set dropped on the picture is opened", async () => {

@@ -201,14 +201,39 @@ export class Panel {
   }
 }
 
-/** The certificate, whatever it holds, as lines. */
-function certificateFacts(certificate: unknown, prefix = "Certificate"): [string, string][] {
-  if (certificate === undefined || certificate === null) return [[prefix, "none in this file"]];
-  if (typeof certificate !== "object") return [[prefix, String(certificate)]];
-  if (Array.isArray(certificate)) {
-    const simple = certificate.every((x) => typeof x !== "object");
-    return [[prefix, simple && certificate.length <= 8 ? certificate.join(", ") : `${certificate.length} entries`]];
+type Json = Record<string, unknown>;
+
+const memberOf = (json: unknown, key: string): unknown =>
+  typeof json === "object" && json !== null ? (json as Json)[key] : undefined;
+
+const digits = (value: unknown, count: number): string =>
+  typeof value === "number" ? String(Number(value.toPrecision(count))) : "not given";
+
+/** No PSNR: there is no error. */
+const decibels = (psnr: unknown): string => typeof psnr === "number" ? `${psnr.toFixed(1)} dB` : "exact";
+
+/** What the pictures of a kind differ by from the exact ones, in words. */
+function errorFact(name: string, error: unknown, unit: string): [string, string][] {
+  if (typeof memberOf(error, "rmse") !== "number") return [];
+  const psnr = `PSNR ${decibels(memberOf(error, "psnr_db"))} over all pixels, ${decibels(memberOf(error, "psnr_lit_db"))} over lit ones`;
+  const errors = `RMSE ${digits(memberOf(error, "rmse"), 3)}, largest error ${digits(memberOf(error, "max_error"), 3)} ${unit}`;
+  return [[name, `${psnr}; ${errors}`]];
+}
+
+/** The certificate: how far pictures and surfaces are from the exact ones. */
+function certificateFacts(certificate: unknown): [string, string][] {
+  if (typeof certificate !== "object" || certificate === null) return [["Certificate", "none in this file"]];
+  const list = [
+    ...errorFact("Maximum", memberOf(certificate, "max"), "(emission, 0 to 1)"),
+    ...errorFact("Sum", memberOf(certificate, "sum"), "(emission \u00d7 mm)"),
+  ];
+  const surfaces = memberOf(certificate, "surfaces");
+  if (surfaces) {
+    list.push(["Surfaces", `emission off by ${digits(memberOf(surfaces, "rms_error"), 3)} RMS, ${digits(memberOf(surfaces, "max_error"), 3)} at most`]);
   }
-  return Object.entries(certificate).flatMap(
-    ([key, value]) => certificateFacts(value, `${prefix === "Certificate" ? "" : `${prefix}: `}${key.replace(/_/g, " ")}`));
+  const [views, size] = [memberOf(certificate, "views"), memberOf(certificate, "size")];
+  if (Array.isArray(views) && Array.isArray(size)) {
+    list.push(["Measured on", `${views.length} views of ${size.join(" \u00d7 ")} pixels, against the exact pictures`]);
+  }
+  return list;
 }
