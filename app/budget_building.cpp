@@ -86,7 +86,7 @@ class Trials {
 
   SetSize build(const BudgetCandidate& candidate) {
     ShellFlags flags = flags_of(flags_, candidate);
-    flags.coarse = "none";  // a budget is for what a scene needs at most
+    flags.coarse = kNoCopies;  // a budget is for what a scene needs at most
     ordered_json unsaid;
     BuildOptions options =
         build_options(flags, input_.volume.world_from_voxel, placer_.place(flags, silent_, unsaid),

@@ -26,8 +26,6 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr const char* kNoCertificate = "none";
-constexpr const char* kAutoCopies = "auto";
-constexpr const char* kNoCopies = "none";
 // Of the pictures a budget's sets are measured with where there is no certificate to agree with.
 constexpr glm::ivec2 kTradedSize{256, 256};
 

@@ -6,7 +6,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <optional>
-
 #include <utility>
 
 #include "app/build_words.h"
@@ -17,9 +16,6 @@
 
 namespace nacre {
 namespace {
-
-constexpr const char* kAuto = "auto";
-constexpr const char* kNone = "none";
 
 // A set that loads and draws at once on two cores as it is gets no copies.
 constexpr std::size_t kManyTriangles = 200'000;
@@ -58,24 +54,21 @@ BuiltSet compress(const BuildOptions& options, Build&& build) {
   return result;
 }
 
-}  // namespace
+/// 0 where copies would not be much coarser than the shells, or those are not simplified.
+double chosen_tolerance(double own, std::size_t levels) {
+  const double chosen =
+      std::min(kCoarseLayers / static_cast<double>(std::max<std::size_t>(levels, 1)), kCoarsest);
+  return own > 0.0 && chosen >= kCoarser * own ? chosen : 0.0;
+}
 
-double coarse_tolerance(const ShellFlags& flags, std::size_t levels, std::size_t& triangles) {
-  triangles = 0;
-  const double own = flags.tolerance.value_or(0.0);
-  if (flags.coarse == kNone) return 0.0;
-  if (flags.coarse == kAuto) {
-    const double chosen =
-        std::min(kCoarseLayers / static_cast<double>(std::max<std::size_t>(levels, 1)), kCoarsest);
-    triangles = kManyTriangles;
-    return own > 0.0 && chosen >= kCoarser * own ? chosen : 0.0;
-  }
+/// @throws Error  BadArgument if it is out of range, or shells are not simplified
+double named_tolerance(const std::string& text, double own) {
   double wanted = 0.0;
-  if (!CLI::detail::lexical_cast(flags.coarse, wanted) || !(wanted > own && wanted <= 1.0)) {
+  if (!CLI::detail::lexical_cast(text, wanted) || !(wanted > own && wanted <= 1.0)) {
     throw Error(ErrorCode::BadArgument,
                 fmt::format("--coarse: found {}, expected auto, none, or an emission above "
                             "--tolerance ({}) and up to 1",
-                            flags.coarse, own));
+                            text, own));
   }
   if (!(own > 0.0)) {
     throw Error(ErrorCode::BadArgument,
@@ -84,12 +77,24 @@ double coarse_tolerance(const ShellFlags& flags, std::size_t levels, std::size_t
   return wanted;
 }
 
+void set_copies(BuildOptions& options, const ShellFlags& flags) {
+  const double own = flags.tolerance.value_or(0.0);
+  if (flags.coarse == kNoCopies) return;
+  if (flags.coarse != kAutoCopies) {
+    options.coarse_tolerance = named_tolerance(flags.coarse, own);
+    return;
+  }
+  options.coarse_tolerance = chosen_tolerance(own, options.levels.size());
+  options.coarse_above_triangles = kManyTriangles;
+}
+
+}  // namespace
+
 BuildOptions build_options(const ShellFlags& flags, const glm::dmat4& world_from_voxel,
                            PlacedLevels levels, ProgressCallback progress) {
   BuildOptions options;
-  options.coarse_tolerance =
-      coarse_tolerance(flags, levels.levels.size(), options.coarse_above_triangles);
   options.levels = std::move(levels.levels);
+  set_copies(options, flags);
   options.placement = std::move(levels.placement);
   options.emission_tolerance = flags.tolerance.value_or(0.0);
   options.tolerance_mm = flags.tolerance_mm;

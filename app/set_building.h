@@ -19,11 +19,6 @@ struct BuiltSet {
   BuildReport report;
 };
 
-/// The emission error of coarse copies that the flags ask for, 0 for none.
-/// @param triangles  set to what a set must have more of to get them
-/// @throws Error     BadArgument for a tolerance out of range, or where shells are not simplified
-double coarse_tolerance(const ShellFlags& flags, std::size_t levels, std::size_t& triangles);
-
 /// Builds, compressing each shell when it is finished. A volume that is moved here is gone as soon
 /// as no later step looks at it.
 BuiltSet build_and_compress(Volume&& volume, const EmissionMap& emission,

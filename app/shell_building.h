@@ -13,6 +13,10 @@
 
 namespace nacre {
 
+/// Values of --coarse beside a number.
+inline constexpr const char* kAutoCopies = "auto";
+inline constexpr const char* kNoCopies = "none";
+
 /// Which shells to make of a volume, as flags say it.
 struct ShellFlags : LevelFlags {
   std::optional<double> tolerance;      ///< emission; 0 or none: no simplification
@@ -20,12 +24,12 @@ struct ShellFlags : LevelFlags {
   int quantization = 0;                 ///< bits; 0: chosen
   std::optional<double> min_component;  ///< mm^3; none: chosen
   bool keep_specks = false;
-  std::string purpose = "all";  ///< all or max: which pictures the set must serve
-  std::string coarse = "none";  ///< auto, none, or the emission error of coarse copies
+  std::string purpose = "all";     ///< all or max: which pictures the set must serve
+  std::string coarse = kNoCopies;  ///< auto, none, or the emission error of coarse copies
 };
 
 /// Adds the flags of levels, --tolerance, --tolerance-mm, --quantization, --min-component,
-/// --keep-specks, --purpose.
+/// --keep-specks and --purpose.
 void add_shell_flags(CLI::App& verb, ShellFlags& flags);
 
 /// What building took, in seconds, and how many triangles there were before simplification.

@@ -256,17 +256,17 @@ void add_level(ShellDirectory& directory, const Value& gltf, const Value& level,
 /// One byte may stand for many triangles in one shell; the file as a whole is held to the same.
 void check_total(const ShellDirectory& directory, std::size_t binary_size, std::string_view file) {
   std::size_t triangles = 0;
-  std::vector<std::optional<ShellPayload>> payloads = directory.payloads;
-  payloads.insert(payloads.end(), directory.coarse.begin(), directory.coarse.end());
-  for (const std::optional<ShellPayload>& payload : payloads) {
-    if (!payload) continue;
+  const auto add = [&](const std::optional<ShellPayload>& payload) {
+    if (!payload) return;
     triangles += std::min(payload->counts.triangles, plausible_triangles(binary_size) + 1);
     if (triangles > plausible_triangles(binary_size)) {
       throw Error(ErrorCode::BadFile,
                   fmt::format("{}: found {} or more triangles in {} bytes, expected at most {}",
                               file, triangles, binary_size, plausible_triangles(binary_size)));
     }
-  }
+  };
+  std::for_each(directory.payloads.begin(), directory.payloads.end(), add);
+  std::for_each(directory.coarse.begin(), directory.coarse.end(), add);
 }
 
 ShellFileCoarse coarse_of(const Value& value) {

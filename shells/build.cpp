@@ -184,8 +184,8 @@ void simplify_shells(const Volume& volume, const EmissionMap& emission, const Bu
   });
 }
 
-/// Copies of simplified shells, simplified further: what the first simplification left is a
-/// fraction of what was contoured, so that this takes a fraction of its time.
+/// Copies of simplified shells, simplified further; this takes some two thirds of the time that the
+/// shells' own simplification takes (docs/decisions/024-coarse-copies.md).
 std::vector<TriangleMesh> coarser_copies(const Volume& volume, const EmissionMap& emission,
                                          const BuildOptions& options,
                                          std::span<const std::size_t> triangles,

@@ -17,7 +17,6 @@ using nlohmann::json;
 class DrawnCopies : public testing::CommandTest {
  protected:
   void SetUp() override {
-    if (!NACRE_HAS_SHELLS) GTEST_SKIP() << "built without the shell tools";
     ASSERT_EQ(nacre("phantom torus --size 28,26,24 -o t.nii").status, 0);
     ASSERT_EQ(nacre("build t.nii --levels 8 --tolerance 0.005 --certificate 96x96 --coarse 0.1 "
                     "-o set.glb")
