@@ -6,6 +6,7 @@
 #include "app/command.h"
 #include "app/failures.h"
 #include "app/report_verbs.h"
+#include "app/thread_limit.h"
 
 namespace nacre {
 namespace {
@@ -38,6 +39,7 @@ int parse_and_run(CLI::App& app, int argc, char** argv, const int& status) {
 
 int run_nacre(int argc, char** argv) {
   return_large_blocks();
+  const WorkerThreads workers;
   CLI::App app{
       "Nacre: seeing inside a scanned volume, fast, on any machine.\n"
       "Each verb explains itself: nacre VERB -h",

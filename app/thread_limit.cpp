@@ -2,6 +2,8 @@
 
 #include <tbb/global_control.h>
 
+#include <new>
+
 namespace nacre {
 
 struct ThreadLimit::Control {
@@ -15,5 +17,13 @@ ThreadLimit::ThreadLimit(const CommonFlags& flags) {
 }
 
 ThreadLimit::~ThreadLimit() = default;
+
+struct WorkerThreads::Handle {
+  tbb::task_scheduler_handle scheduler{tbb::attach{}};
+};
+
+WorkerThreads::WorkerThreads() : handle_(new Handle) {}
+
+WorkerThreads::~WorkerThreads() { tbb::finalize(handle_->scheduler, std::nothrow); }
 
 }  // namespace nacre

@@ -20,4 +20,19 @@ class ThreadLimit {
   std::unique_ptr<Control> control_;
 };
 
+/// While it lives parallel work may be done; its end waits until every thread that did some has
+/// ended too. A thread that outlives `main` runs on while the libraries it used are taken down.
+class WorkerThreads {
+ public:
+  WorkerThreads();
+  ~WorkerThreads();
+
+  WorkerThreads(const WorkerThreads&) = delete;
+  WorkerThreads& operator=(const WorkerThreads&) = delete;
+
+ private:
+  struct Handle;
+  std::unique_ptr<Handle> handle_;
+};
+
 }  // namespace nacre

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <iostream>
 #include <string>
 
 #include "tests/support/run_command.h"
@@ -14,7 +15,9 @@ namespace nacre::testing {
 class CommandTest : public ::testing::Test {
  protected:
   CommandResult nacre(const std::string& arguments) const {
-    return run_command(NACRE_BINARY, arguments, folder_.path());
+    CommandResult result = run_command(NACRE_BINARY, arguments, folder_.path());
+    if (result.status != 0) last_failure_ = "nacre " + arguments + "\n" + result.errors;
+    return result;
   }
 
   /// The command fails with this status and one line that holds `part`, and leaves no file.
@@ -28,7 +31,15 @@ class CommandTest : public ::testing::Test {
     EXPECT_EQ(folder_.file_count(), files) << arguments << " left a file";
   }
 
+  /// A test that expects success compares the status alone: what the command said is told here.
+  void TearDown() override {
+    if (HasFailure()) std::cout << "The last command that failed: " << last_failure_ << "\n";
+  }
+
   ScratchFolder folder_;
+
+ private:
+  mutable std::string last_failure_ = "none";
 };
 
 }  // namespace nacre::testing
