@@ -12,6 +12,9 @@
 #ifdef NACRE_HAVE_MESHOPTIMIZER
 #include <meshoptimizer.h>
 #endif
+#ifdef NACRE_HAVE_VTK
+#include "bench/vtk_decimator.h"
+#endif
 
 namespace nacre {
 namespace {
@@ -110,6 +113,9 @@ std::vector<PlainDecimator> plain_decimators() {
   std::vector<PlainDecimator> decimators{{"OpenMesh", by_openmesh}};
 #ifdef NACRE_HAVE_MESHOPTIMIZER
   decimators.push_back({"meshoptimizer", by_meshoptimizer});
+#endif
+#ifdef NACRE_HAVE_VTK
+  decimators.push_back({"VTK", by_vtk});
 #endif
   return decimators;
 }

@@ -14,7 +14,7 @@ struct PlainDecimator {
   TriangleMesh (*simplify)(const TriangleMesh& surface, std::size_t triangles);
 };
 
-/// OpenMesh's, and meshoptimizer's where it is installed.
+/// OpenMesh's, and meshoptimizer's and VTK's where they are installed.
 std::vector<PlainDecimator> plain_decimators();
 
 /// A mesh that went through Draco on a grid over its own box.

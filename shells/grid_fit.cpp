@@ -1,6 +1,8 @@
 #include "shells/grid_fit.h"
 
+#include <algorithm>
 #include <cstdint>
+#include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
 #include <limits>
 #include <vector>
@@ -13,6 +15,9 @@ namespace nacre {
 namespace {
 
 constexpr int kNearby = 27;
+// A second time over, vertices meet neighbours that are on the grid, too. That is worth its time
+// where a step is large beside what the field shows, samples.
+constexpr double kCoarseStep = 0.1;
 
 /// The i-th of the grid points around one.
 glm::ivec3 neighbour(const glm::ivec3& index, int i) {
@@ -22,6 +27,15 @@ glm::ivec3 neighbour(const glm::ivec3& index, int i) {
 bool is_in_grid(const QuantizationGrid& grid, const glm::ivec3& index) {
   return glm::all(glm::greaterThanEqual(index, glm::ivec3(0))) &&
          glm::all(glm::lessThan(index, glm::ivec3(1 << grid.bits)));
+}
+
+/// The most samples that a step along one of the grid's axes crosses.
+double step_samples(const QuantizationGrid& grid, const glm::dmat3& samples_from_mm) {
+  double most = 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    most = std::max(most, glm::length(samples_from_mm[axis]));
+  }
+  return most * step_mm(grid);
 }
 
 /// The best grid point around `here`, where `fit` has sampled the star.
@@ -51,12 +65,15 @@ void fit_to_grid(const ClosedMesh& mesh, const SurfaceField& field,
   Star star;
   StarFit fit(field, samples_from_mm);
   std::vector<double> allowed;
-  for (std::uint32_t v = 0; v < positions.size(); ++v) {
-    if (mesh.outgoing(v) == ClosedMesh::kNone) continue;
-    star_of_vertex(mesh, positions, v, star);
-    allowed.assign(star.triangles.size(), std::numeric_limits<double>::infinity());
-    fit.sample(star, positions[v], allowed);
-    positions[v] = best_point(grid, star, fit, positions[v]);
+  const int rounds = step_samples(grid, samples_from_mm) > kCoarseStep ? 2 : 1;
+  for (int round = 0; round < rounds; ++round) {
+    for (std::uint32_t v = 0; v < positions.size(); ++v) {
+      if (mesh.outgoing(v) == ClosedMesh::kNone) continue;
+      star_of_vertex(mesh, positions, v, star);
+      allowed.assign(star.triangles.size(), std::numeric_limits<double>::infinity());
+      fit.sample(star, positions[v], allowed);
+      positions[v] = best_point(grid, star, fit, positions[v]);
+    }
   }
 }
 
