@@ -4,7 +4,8 @@
 //
 //   size_at_error SCAN LO HI [LEVELS...]
 //
-// PSNR is of maximum projections over a certificate's seven views, 256 x 256, over all pixels.
+// PSNR and largest error are of maximum projections over a certificate's seven views, 256 x 256,
+// over all pixels.
 // Bytes are those of the compressed meshes, without what a file says of them.
 #include <fmt/core.h>
 #include <tbb/parallel_for.h>
@@ -30,6 +31,7 @@ namespace nacre {
 namespace {
 
 constexpr const char* kOurs = "nacre";
+constexpr const char* kContours = "contours";  // as marching cubes leaves them
 
 /// One set: what it takes and what it shows.
 struct Row {
@@ -37,6 +39,7 @@ struct Row {
   std::string settings;
   std::size_t bytes = 0;
   double psnr_db = 0.0;
+  double max_error = 0.0;  ///< of a pixel
 };
 
 class Comparison {
@@ -73,6 +76,8 @@ class Comparison {
     }
     set.center_mm = bounding_sphere(volume_.dims, volume_.world_from_voxel).center_mm;
     const std::vector<TriangleMesh> surfaces = extract_surfaces(volume_, values);
+    add_decimated({kContours, [](const TriangleMesh& mesh, std::size_t) { return mesh; }}, 1,
+                  surfaces, set);
     for (const PlainDecimator& decimator : plain_decimators()) {
       for (const std::size_t part : {4, 8, 16}) add_decimated(decimator, part, surfaces, set);
     }
@@ -108,9 +113,11 @@ class Comparison {
     certifier_.restart();
     certifier_.add(set, std::vector<Shell>(set.shells));
     for (const std::size_t part : bytes) row.bytes += part;
-    row.psnr_db = certifier_.result().max.psnr_db;
-    fmt::print("{:13} {:36} {:9} bytes {:6.2f} dB {:6.1f} s\n", row.method, row.settings, row.bytes,
-               row.psnr_db, seconds.count());
+    const CertifiedError error = certifier_.result().max;
+    row.psnr_db = error.psnr_db;
+    row.max_error = error.max_error;
+    fmt::print("{:13} {:36} {:9} bytes {:6.2f} dB, largest error {:.3f} {:6.1f} s\n", row.method,
+               row.settings, row.bytes, row.psnr_db, row.max_error, seconds.count());
     std::fflush(stdout);
     rows_.push_back(std::move(row));
   }
