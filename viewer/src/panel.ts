@@ -4,6 +4,7 @@ import { viewNames, type ViewName } from "./camera";
 import { colorMapNames } from "./color_maps";
 import { byId, element, onClick, Slider } from "./dom";
 import type { Mode } from "./plan";
+import { trianglesOf, type ShellSet } from "./shell_set";
 import { ShellList } from "./shell_list";
 import { ToolList } from "./tool_list";
 import { commandOf, noCue, noSlab, type State } from "./state";
@@ -186,7 +187,7 @@ export class Panel {
   private facts(): [string, string][] {
     const { set } = this.viewer;
     if (!set) return [];
-    const triangles = set.levels.reduce((sum, level) => sum + level.triangles, 0);
+    const triangles = trianglesOf(set.levels);
     const mm = set.spacing.map((x) => Number(x.toPrecision(4))).join(" × ");
     const ends = [set.emission[0], set.emission[set.emission.length - 1]];
     const list: [string, string][] = [
@@ -197,7 +198,7 @@ export class Panel {
       ["Grid", `${set.bits} bits, ${Number(set.step.toPrecision(3))} mm a step`],
       ["Simplified", set.tolerance > 0 ? `by up to ${set.tolerance} in emission` : "no"],
     ];
-    return [...list, ...certificateFacts(set.certificate)];
+    return [...list, ...certificateFacts(set.certificate), ...copiesFacts(set)];
   }
 }
 
@@ -218,6 +219,15 @@ function errorFact(name: string, error: unknown, unit: string): [string, string]
   const psnr = `PSNR ${decibels(memberOf(error, "psnr_db"))} over all pixels, ${decibels(memberOf(error, "psnr_lit_db"))} over lit ones`;
   const errors = `RMSE ${digits(memberOf(error, "rmse"), 3)}, largest error ${digits(memberOf(error, "max_error"), 3)} ${unit}`;
   return [[name, `${psnr}; ${errors}`]];
+}
+
+/** What coarse copies are for, and what their pictures are worth. */
+function copiesFacts(set: ShellSet): [string, string][] {
+  if (!set.coarse) return [];
+  const triangles = trianglesOf(set.levels.map((level) => level.coarse ?? level)).toLocaleString("en");
+  const what = `${triangles} triangles, simplified by up to ${set.coarse.tolerance} in emission; drawn while a large set loads, and turning where frames run late`;
+  const error = errorFact("Their maximum", set.coarse.error, "(emission, 0 to 1)");
+  return [["Coarse copies", what], ...(error.length > 0 ? error : [["Their maximum", "error not measured"] as [string, string]])];
 }
 
 /** The certificate: how far pictures and surfaces are from the exact ones. */
