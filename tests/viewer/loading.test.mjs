@@ -187,3 +187,36 @@ test("a damaged copy is said to be, and its shell is shown", async () => {
   assert.match(await status(page), /\n42k triangles, 480 × 400$/);
   await close(page);
 });
+
+test("a hint says how to turn, once: gone with the first thing done, or dismissed by key", async () => {
+  const url = address(inFolder("copied.html"));
+  const hint = (page) => page.locator("#hint");
+  const page = await opened(url);
+  assert.ok(await hint(page).isVisible());
+  assert.match(await hint(page).textContent(), /Drag to turn, wheel to zoom/);
+  assert.equal(await hint(page).getAttribute("role"), "status");
+  await page.keyboard.press("Tab");
+  assert.ok(await hint(page).isVisible(), "Tab leads to it");
+  await page.locator("#hint-close").focus();
+  await page.keyboard.press("Enter");
+  assert.ok(await hint(page).isHidden());
+  assert.equal(await page.evaluate(() => document.activeElement.id), "picture");
+  await page.reload();
+  await settled(page);
+  assert.ok(await hint(page).isHidden(), "it is remembered");
+  await close(page);
+  const touched = await open(browser, url, { width: 390, height: 844 }, { hasTouch: true, isMobile: true });
+  assert.match(await hint(touched).textContent(), /One finger turns/);
+  await touched.touchscreen.tap(200, 200);
+  assert.ok(await hint(touched).isHidden());
+  await touched.close();
+  const forgetful = await open(browser, url, undefined, {}, () => {
+    Object.defineProperty(window, "localStorage", { get() { throw new DOMException("denied", "SecurityError"); } });
+  });
+  await forgetful.keyboard.press("Escape");
+  assert.ok(await hint(forgetful).isHidden());
+  await forgetful.goto(`${url}?hint=off`);
+  await settled(forgetful);
+  assert.ok(await hint(forgetful).isHidden(), "where it is not wanted");
+  await close(forgetful);
+});

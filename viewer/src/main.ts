@@ -2,6 +2,7 @@
 import { Actions, bindKeys } from "./actions";
 import { byId } from "./dom";
 import { Gestures } from "./gestures";
+import { showHintOnce } from "./hint";
 import { LiveLevels } from "./live";
 import { say } from "./message";
 import { Overlay } from "./overlay";
@@ -142,6 +143,7 @@ async function start(): Promise<void> {
   bindKeys(actions);
   bindFiles(viewer, actions);
   bindPanelToggle();
+  showHintOnce(viewer, asked);
   keepAddress(viewer);
   markPictures(viewer);
   viewer.state = stateOf(location.hash);
