@@ -53,18 +53,32 @@ function markPictures(viewer: Viewer): void {
   });
 }
 
-/** The address follows the state, at most a few times a second. */
+/** The address follows the state: at once, but a moving picture's at most a few times a second. */
 function keepAddress(viewer: Viewer): void {
   let written = location.hash.replace(/^#/, "");
   let timer = 0;
+  let isLate = false;
   const write = (): void => {
-    timer = 0;
     const hash = hashOf(viewer.state);
-    if (hash === written) return;
+    const isTaken = location.hash.replace(/^#/, "") !== written; // by a link, which is told soon
+    if (hash === written || isTaken) return;
     written = hash;
     history.replaceState(null, "", hash === "" ? location.pathname + location.search : `#${hash}`);
   };
-  viewer.listen((what) => { if (what === "state" && timer === 0) timer = window.setTimeout(write, 300); });
+  const follow = (): void => {
+    timer = 0;
+    if (!isLate) return;
+    isLate = false;
+    write();
+    timer = window.setTimeout(follow, 300);
+  };
+  viewer.listen((what) => {
+    if (what !== "state") return;
+    isLate = true;
+    if (timer !== 0 && viewer.loop.isMoving()) return;
+    clearTimeout(timer);
+    follow();
+  });
   window.addEventListener("hashchange", () => {
     const given = location.hash.replace(/^#/, "");
     if (given === written) return;
@@ -119,6 +133,7 @@ function bindPanelToggle(): void {
   toggle.addEventListener("click", () => {
     const folded = document.body.classList.toggle("folded");
     toggle.setAttribute("aria-expanded", String(!folded));
+    toggle.textContent = folded ? "Controls" : "Hide controls";
   });
 }
 

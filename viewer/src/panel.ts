@@ -40,22 +40,22 @@ export class Panel {
 
   private makeSliders(): Record<string, Slider> {
     const { viewer } = this;
-    const camera = (key: keyof State["camera"]) => (value: number): void =>
-      viewer.changeCamera({ [key]: value }, true);
-    const cue = (key: keyof State["cue"]) => (value: number): void =>
-      viewer.change({ cue: { ...viewer.state.cue, [key]: value } }, true);
+    const camera = (key: keyof State["camera"]) => (value: number, moving: boolean): void =>
+      viewer.changeCamera({ [key]: value }, moving);
+    const cue = (key: keyof State["cue"]) => (value: number, moving: boolean): void =>
+      viewer.change({ cue: { ...viewer.state.cue, [key]: value } }, moving);
     const made: Record<string, Slider> = {
-      level: new Slider("level", (level) => this.setWindow(level, null)),
-      width: new Slider("width", (width) => this.setWindow(null, width)),
+      level: new Slider("level", (level, moving) => this.setWindow(level, null, moving)),
+      width: new Slider("width", (width, moving) => this.setWindow(null, width, moving)),
       "cine-speed": new Slider("cine-speed", (speed) => { this.actions.cineSpeed = speed; this.show(); }),
-      perspective: new Slider("perspective", (value) =>
-        viewer.changeCamera({ perspective: clamp(value, 0, 170), distance: null }, true)),
-      distance: new Slider("distance", (value) => camera("distance")(Math.max(0, value))),
+      perspective: new Slider("perspective", (value, moving) =>
+        viewer.changeCamera({ perspective: clamp(value, 0, 170), distance: null }, moving)),
+      distance: new Slider("distance", (value, moving) => camera("distance")(Math.max(0, value), moving)),
       roll: new Slider("roll", camera("roll")),
-      zoom: new Slider("zoom", (value) => camera("zoom")(clamp(value, 0.05, 200)), true),
+      zoom: new Slider("zoom", (value, moving) => camera("zoom")(clamp(value, 0.05, 200), moving), true),
       a: new Slider("a", cue("a")), b: new Slider("b", cue("b")), beta0: new Slider("beta0", cue("beta0")),
-      "slab-near": new Slider("slab-near", (lo) => this.setSlab(lo, null)),
-      "slab-far": new Slider("slab-far", (hi) => this.setSlab(null, hi)),
+      "slab-near": new Slider("slab-near", (lo, moving) => this.setSlab(lo, null, moving)),
+      "slab-far": new Slider("slab-far", (hi, moving) => this.setSlab(null, hi, moving)),
     };
     made["cine-speed"].limits(-120, 120, 1);
     made.perspective.limits(0, 120, 1);
@@ -67,20 +67,20 @@ export class Panel {
     return made;
   }
 
-  private setWindow(level: number | null, width: number | null): void {
+  private setWindow(level: number | null, width: number | null, moving: boolean): void {
     const { lo, hi } = this.viewer.window();
     const middle = level ?? (lo + hi) / 2;
     const half = Math.max(width ?? hi - lo, 1e-4) / 2;
-    this.viewer.change({ window: { lo: middle - half, hi: middle + half } }, true);
+    this.viewer.change({ window: { lo: middle - half, hi: middle + half } }, moving);
   }
 
   /** The end that is moved pushes the other one before it. */
-  private setSlab(lo: number | null, hi: number | null): void {
+  private setSlab(lo: number | null, hi: number | null, moving: boolean): void {
     const least = this.radius() / 500;
     const slab = { ...this.viewer.state.slab };
     if (lo !== null) slab.hi = Math.max(slab.hi, lo + least);
     if (hi !== null) slab.lo = Math.min(slab.lo, hi - least);
-    this.viewer.change({ slab: { lo: lo ?? slab.lo, hi: hi ?? slab.hi } }, true);
+    this.viewer.change({ slab: { lo: lo ?? slab.lo, hi: hi ?? slab.hi } }, moving);
   }
 
   private radius(): number { return this.viewer.set?.sphere.radius ?? 100; }
