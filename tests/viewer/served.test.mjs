@@ -104,6 +104,7 @@ test("levels are added, moved and deleted while it is served", async () => {
   await page.click("#live-add");
   assert.match(await page.textContent("#message"), /found 7, expected above 0 and up to 1/);
   assert.equal(await statusOf(address, "/level?emission=x", undefined, "POST"), 400);
+  assert.equal(await page.evaluate(() => document.documentElement.dataset.problem), undefined, "each shell was decoded");
   assert.deepEqual(page.problems, []);
   await page.close();
   assert.equal(await end(server, "SIGTERM"), 0);
