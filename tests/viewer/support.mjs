@@ -2,7 +2,7 @@
 import { execFile, execFileSync } from "node:child_process";
 import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
-import { availableParallelism, tmpdir } from "node:os";
+import { cpus, tmpdir } from "node:os";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
 import { promisify } from "node:util";
@@ -43,7 +43,7 @@ export const nacre = (...flags) => execFileSync(nacreBinary, flags, { cwd: folde
 
 /** The ends of several commands, run as many at a time as there are processors. */
 export function nacreAll(commands) {
-  const lanes = Array(availableParallelism()).fill(Promise.resolve());
+  const lanes = Array(cpus().length).fill(Promise.resolve());
   return commands.map((flags, i) => {
     const lane = i % lanes.length;
     const end = lanes[lane].then(() => promisify(execFile)(nacreBinary, flags, { cwd: folder, timeout: 120_000 }));
