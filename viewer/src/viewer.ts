@@ -238,13 +238,13 @@ export class Viewer {
   forgetOwnWindow(): void { this.largest.delete(this.state.mode); }
 
   private loaded(): void {
-    this.tell("loading");
     const { wanted, loaded } = this.loader.state();
     const levels = this.plan?.wanted.map((k) => this.set!.levels[k]) ?? [];
     const isComplete = levels.every((level) => this.meshOf(level, this.plan!.normals, false));
     const isFirst = isComplete && !this.picture.isComplete;
     if (loaded < wanted && !isFirst) this.loop.invalidateLoading();
     else this.loop.invalidate();
+    this.tell("loading"); // afterwards: the picture is not ready before it is drawn
   }
 
   private restore(): void {
