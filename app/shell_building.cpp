@@ -9,9 +9,6 @@
 namespace nacre {
 namespace {
 
-// Draco's effort where its time counts and the bytes only pass through memory.
-constexpr int kQuickCompression = 1;
-
 BuildOptions options_of(const ShellFlags& flags, const EmissionVolume& input, Reporter& reporter,
                         BuildFigures& figures) {
   Stopwatch placing;
@@ -51,7 +48,7 @@ CompressedSet build_one_level(const ShellFlags& flags, const EmissionVolume& inp
   TriangleMesh surface = std::exchange(result.set.shells.front().surface, {});
   result.shells.resize(1);
   if (!surface.triangles.empty()) {
-    result.shells.front() = compress_shell(std::move(surface), *result.set.grid, kQuickCompression);
+    result.shells.front() = pack_shell(std::move(surface), *result.set.grid);
   }
   return result;
 }

@@ -69,7 +69,8 @@ CompressedSet build_compressed_set(const ShellFlags& flags, EmissionVolume input
                                    const std::filesystem::path& scratch_folder, Reporter& reporter,
                                    BuildFigures& figures);
 
-/// The shell of one more level of a volume that stays: a set of one, as fast as it can be had.
+/// The shell of one more level of a volume that stays: a set of one, as fast as it can be had, for
+/// a page (`pack_shell`).
 ///
 /// What needs looks at the whole set or along rays is left out: the representative is 1, whatever
 /// maxima through the layer would make of it, and no crossings are counted.

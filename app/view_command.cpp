@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <csignal>
 #include <cstddef>
 #include <cstdio>
 #include <cstdlib>
@@ -85,10 +86,19 @@ void open_on_desktop(const std::string& address) {
   std::string program = "xdg-open";
   std::string argument = address;
   std::array<char*, 3> arguments{program.data(), argument.data(), nullptr};
+  // A browser is no part of this: neither the signals held here nor a Ctrl+C concern it.
+  sigset_t none;
+  sigemptyset(&none);
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setsigmask(&attributes, &none);
+  posix_spawnattr_setpgroup(&attributes, 0);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETPGROUP);
   pid_t child = 0;
-  if (posix_spawnp(&child, program.c_str(), nullptr, nullptr, arguments.data(), environ) != 0) {
-    return;
-  }
+  const int failure =
+      posix_spawnp(&child, program.c_str(), nullptr, &attributes, arguments.data(), environ);
+  posix_spawnattr_destroy(&attributes);
+  if (failure != 0) return;
   std::thread([child] { waitpid(child, nullptr, 0); }).detach();  // no zombie while it is served
 }
 

@@ -34,11 +34,13 @@ void fill(draco::Mesh& result, const TriangleMesh& mesh) {
 
 }  // namespace
 
-DracoData encode_draco(TriangleMesh&& mesh, const QuantizationGrid& grid, int compression) {
+DracoData encode_draco(TriangleMesh&& mesh, const QuantizationGrid& grid, int compression,
+                       DracoMethod method) {
   const glm::vec3 origin(grid.origin_mm);
   const int speed = kSlowest - std::clamp(compression, 0, kSlowest);
   draco::Encoder encoder;
-  encoder.SetEncodingMethod(draco::MESH_EDGEBREAKER_ENCODING);
+  encoder.SetEncodingMethod(method == DracoMethod::Sequential ? draco::MESH_SEQUENTIAL_ENCODING
+                                                              : draco::MESH_EDGEBREAKER_ENCODING);
   encoder.SetSpeedOptions(speed, speed);
   encoder.SetAttributeExplicitQuantization(draco::GeometryAttribute::POSITION, grid.bits, 3,
                                            &origin.x, static_cast<float>(grid.range_mm));

@@ -154,20 +154,29 @@ void check_coarse(const CoarseShells& coarse, std::span<const CompressedShell> s
   }
 }
 
-}  // namespace
-
-CompressedShell compress_shell(TriangleMesh&& surface, const QuantizationGrid& grid,
-                               int compression) {
+CompressedShell encode(TriangleMesh&& surface, const QuantizationGrid& grid, int compression,
+                       DracoMethod method) {
   CompressedShell shell;
   check_surface(surface, grid);
   if (surface.triangles.empty()) return shell;
   set_bounds(surface, shell);
-  DracoData data = encode_draco(std::move(surface), grid, compression);
+  DracoData data = encode_draco(std::move(surface), grid, compression, method);
   shell.bytes = std::move(data.bytes);
   shell.checksum = xxh64(shell.bytes);
   shell.triangles = data.counts.triangles;
   shell.vertices = data.counts.vertices;
   return shell;
+}
+
+}  // namespace
+
+CompressedShell compress_shell(TriangleMesh&& surface, const QuantizationGrid& grid,
+                               int compression) {
+  return encode(std::move(surface), grid, compression, DracoMethod::Edgebreaker);
+}
+
+CompressedShell pack_shell(TriangleMesh&& surface, const QuantizationGrid& grid) {
+  return encode(std::move(surface), grid, 0, DracoMethod::Sequential);
 }
 
 std::vector<std::byte> assemble_shell_set(const ShellSet& set,

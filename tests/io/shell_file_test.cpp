@@ -207,6 +207,21 @@ TEST(ShellFile, RefusesCopiesOfWhatIsNotThere) {
   EXPECT_THROW(encode_shell_set(set, options), Error);
 }
 
+TEST(ShellFile, APackedShellIsTheSameShellForAPageAlone) {
+  ShellSet set = small_shell_set();
+  set.shells.resize(1);
+  const TriangleMesh& surface = set.shells.front().surface;
+  const CompressedShell small = compress_shell(TriangleMesh(surface), *set.grid);
+  const CompressedShell packed = pack_shell(TriangleMesh(surface), *set.grid);
+  EXPECT_EQ(packed.triangles, small.triangles);
+  EXPECT_EQ(packed.vertices, small.vertices);
+  EXPECT_EQ(packed.lo, small.lo);
+  EXPECT_EQ(packed.hi, small.hi);
+  const std::vector<std::byte> file = assemble_shell_set(set, std::vector{packed});
+  EXPECT_EQ(parse_shell_file_info(file, kName).levels.front().triangles, small.triangles);
+  EXPECT_THROW(decode_shell_set(file, kName), Error);
+}
+
 TEST(ShellFile, CarriesACertificate) {
   ShellWriteOptions options;
   options.certificate_json = R"({"psnr_db":45.25,"views":[1,2]})";

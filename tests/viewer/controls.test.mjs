@@ -5,7 +5,7 @@ import { after, before, beforeEach, test } from "node:test";
 import { goTo, inFolder, launch, look, makeAngiogram, nacre, open, psnr, savePicture, settled, toolPose, writeTool } from "./support.mjs";
 
 const browser = await launch();
-const size = { width: 770, height: 400 };
+const size = { width: 640, height: 340 };
 let page;
 let url;
 /** The picture as it was last looked at; null if it may have changed since. */
@@ -13,7 +13,7 @@ let seen = null;
 
 before(async () => {
   writeTool();
-  url = makeAngiogram();
+  url = `${makeAngiogram()}?detail=full`; // a picture that moves is then drawn once, not again at rest
   nacre("phantom", "spheres", "--size", "24,24,24", "-o", "ball.nrrd", "-q");
   nacre("build", "ball.nrrd", "--window", "0,28", "--levels", "2", "-o", "ball.glb", "-q");
   page = await open(browser, url, size);
@@ -24,19 +24,22 @@ beforeEach(() => {
 });
 after(() => browser.close());
 
-const hashNow = () => decodeURIComponent(new URL(page.url()).hash.slice(1));
+const hashNow = () => page.evaluate(() => decodeURIComponent(location.hash.slice(1)));
 
 /** The address once it matches: it follows the state a few times a second. */
 async function address(hash) {
-  for (let tries = 0; tries < 100 && !hash.test(hashNow()); ++tries) await page.waitForTimeout(30);
-  return hashNow();
+  let now = await hashNow();
+  for (let tries = 0; tries < 100 && !hash.test(now); ++tries) {
+    await page.waitForTimeout(30);
+    now = await hashNow();
+  }
+  return now;
 }
 
 /** The act changes the picture; the address then matches. */
 async function changes(what, act, hash) {
   const earlier = seen ?? await look(page);
   await act();
-  await settled(page);
   seen = await look(page);
   assert.notEqual(seen, earlier, `${what}: the picture is the same`);
   if (hash) assert.match(await address(hash), hash, what);
@@ -172,7 +175,7 @@ test("the cue", async () => {
   await changes("b", () => setNumber("b", 0.2), /cue=0.5,0.2,0/);
   await changes("beta0", () => setNumber("beta0", 0.3), /cue=0.5,0.2,0.3/);
   await changes("a negative a", () => setNumber("a", -2), /cue=-2,/);
-  const [a, b, beta0] = hashNow().replace("cue=", "").split(",").map(Number);
+  const [a, b, beta0] = (await hashNow()).replace("cue=", "").split(",").map(Number);
   assert.ok(a === -2 && beta0 + b + a >= -1e-9, "beta is not negative anywhere");
   await changes("near is bright", () => page.click("#cue-near"), /cue=0.85,0.15,0/);
   await changes("no cue", () => page.click("#cue-off"), /^$/);
@@ -182,7 +185,7 @@ test("the slab", async () => {
   await changes("from", () => setNumber("slab-near", -5), /slab=-5,1000000/);
   await changes("to", () => setNumber("slab-far", 5), /slab=-5,5/);
   await changes("the end that is moved", () => setNumber("slab-far", -20), /slab=-?[\d.]+,-20/);
-  const [near, far] = hashNow().replace("slab=", "").split(",").map(Number);
+  const [near, far] = (await hashNow()).replace("slab=", "").split(",").map(Number);
   assert.ok(near < far && far === -20, "the end that is moved pushes the other");
   await changes("whole volume", () => page.click("#slab-off"), /^$/);
 });
@@ -227,15 +230,17 @@ test("cine turns until it is stopped", async () => {
   await setNumber("cine-speed", 90);
   await changes("cine", async () => {
     await page.click("#cine");
-    await page.waitForFunction(() => /a second|ms/.test(document.getElementById("status").textContent));
-    await page.waitForTimeout(300);
+    await page.waitForFunction(() => / a second/.test(document.getElementById("status").textContent));
     assert.equal(await page.getAttribute("#cine", "aria-pressed"), "true");
     await page.click("#cine");
   }, /azimuth=/);
-  await page.waitForTimeout(350); // the address catches up
-  const stopped = hashNow();
-  await page.waitForTimeout(400);
-  assert.equal(hashNow(), stopped);
+  const [stopped, later] = await page.evaluate(async () => {
+    const command = () => document.getElementById("command").textContent;
+    const first = command();
+    for (let frame = 0; frame < 4; ++frame) await new Promise(requestAnimationFrame);
+    return [first, command()];
+  });
+  assert.equal(later, stopped, "it stands still");
   await page.locator("#picture").focus();
   await page.keyboard.press("c");
   assert.equal(await page.getAttribute("#cine", "aria-pressed"), "true");
@@ -313,6 +318,7 @@ test("help, panel and full screen", async () => {
   await page.click("#panel-toggle");
   await settled(page);
   assert.equal((await canvas()).width, size.width);
+  assert.equal(await page.textContent("#panel-toggle"), "Controls");
   await page.click("#panel-toggle");
   await page.click("#full-screen");
   await page.waitForFunction(() => document.fullscreenElement !== null);
@@ -371,9 +377,12 @@ test("every control has a name, and is reached by Tab", async () => {
 test("a lost context is restored", async () => {
   const shown = await look(page);
   await page.evaluate(async () => {
-    const lose = document.getElementById("picture").getContext("webgl2").getExtension("WEBGL_lose_context");
+    const canvas = document.getElementById("picture");
+    const lose = canvas.getContext("webgl2").getExtension("WEBGL_lose_context");
+    const lost = new Promise((done) => canvas.addEventListener("webglcontextlost", done));
     lose.loseContext();
-    await new Promise((done) => setTimeout(done, 300));
+    await lost;
+    await new Promise((done) => setTimeout(done)); // not before the event is over
     document.documentElement.dataset.state = "drawing";
     lose.restoreContext();
   });

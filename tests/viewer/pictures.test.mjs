@@ -1,17 +1,11 @@
 // The page's pictures against `nacre render` with the same flags: at least 40 dB.
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
-import { goTo, inFolder, launch, makeAngiogram, nacre, open, psnr, savePicture, settled, toolPose, writeTool } from "./support.mjs";
+import { inFolder, launch, makeAngiogram, nacreAll, open, psnrOfView, settled, toolPose, writeTool } from "./support.mjs";
 
 const browser = await launch();
 const leastPsnr = 40;
 const side = 256;
-let page;
-
-before(async () => {
-  writeTool();
-  page = await open(browser, makeAngiogram(), { width: 800, height: 300 });
-});
 after(() => browser.close());
 
 const turned = "azimuth=25&elevation=15&zoom=1.3";
@@ -33,7 +27,7 @@ const withoutTool = [
   ["max, moved and rolled", `${turned}&roll=33&look-at=10,-5,12`],
   ["max, shells hidden", "view=left&hide=2,3,7"],
   ["sum", `mode=sum&display=0,10&${turned}`],
-  ["sum, the brightest shells, which maxima show darker", "mode=sum&display=0,0.2&hide=1,2,3,4,5,6,7"],
+  ["sum, the brightest shell, which maxima show darker", "mode=sum&display=0,5&hide=1,2,3,4,5,6,7&zoom=25&look-at=-36.5,0,-23"],
   ["sum, cued", `mode=sum&display=0,7&${turned}&cue=0.9,0.1,0`],
   ["sum, a slab", `mode=sum&display=0,7&${turned}&slab=-8,9`],
   ["sum, perspective and cued", `mode=sum&display=0,7&${turned}&perspective=60&cue=0.9,0.1,0`],
@@ -67,23 +61,30 @@ const flagsOf = (hash) => hash.split("&").filter(Boolean).flatMap((part) => {
   return [`--${name}=${value}`];
 });
 
-async function compare(name, hash, toolFlags) {
-  await goTo(page, hash);
-  const shown = await savePicture(page, "page.png", side, side);
-  nacre("render", "angiogram.glb", "--size", `${side}x${side}`, ...flagsOf(hash), ...toolFlags, "-o", "nacre.png", "-q");
-  const found = await psnr(page, shown, inFolder("nacre.png"));
+const cases = [
+  ...withoutTool.map(([name, hash]) => ({ name, hash, size: [side, side], flags: [] })),
+  { name: "a picture that is not square", hash: turned, size: [300, 200], flags: [] },
+  ...withTool.map(([name, hash]) => ({ name, hash, size: [side, side], flags: tool })),
+];
+let page;
+let drawn = [];
+before(async () => {
+  writeTool();
+  const url = makeAngiogram();
+  drawn = nacreAll(cases.map(({ hash, size, flags }, k) =>
+    ["render", "angiogram.glb", "--size", size.join("x"), ...flagsOf(hash), ...flags, "-o", `${k}.png`, "-q"]));
+  page = await open(browser, url, { width: 800, height: 300 });
+});
+
+async function compare(k) {
+  const { name, hash, size } = cases[k];
+  await drawn[k];
+  const found = await psnrOfView(page, hash, ...size, inFolder(`${k}.png`));
   console.log(`${name}: ${found.toFixed(1)} dB`);
   assert.ok(found >= leastPsnr, `${name}: ${found.toFixed(1)} dB`);
 }
 
-for (const [name, hash] of withoutTool) test(name, () => compare(name, hash, []));
-
-test("a picture that is not square", async () => {
-  await goTo(page, turned);
-  const shown = await savePicture(page, "page.png", 300, 200);
-  nacre("render", "angiogram.glb", "--size", "300x200", ...flagsOf(turned), "-o", "nacre.png", "-q");
-  assert.ok(await psnr(page, shown, inFolder("nacre.png")) >= leastPsnr);
-});
+for (const [k, { name, flags }] of cases.entries()) if (flags !== tool) test(name, () => compare(k));
 
 test("a tool is added and posed by its file and field", async () => {
   await page.setInputFiles("#tool-file", inFolder("tool.obj"));
@@ -93,6 +94,6 @@ test("a tool is added and posed by its file and field", async () => {
   await settled(page);
 });
 
-for (const [name, hash] of withTool) test(name, () => compare(name, hash, tool));
+for (const [k, { name, flags }] of cases.entries()) if (flags === tool) test(name, () => compare(k));
 
 test("nothing was wrong on the way", () => assert.deepEqual(page.problems, []));

@@ -2,8 +2,10 @@
 import assert from "node:assert/strict";
 import { spawn } from "node:child_process";
 import { once } from "node:events";
+import { existsSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { request } from "node:http";
 import { after, test } from "node:test";
+import { setTimeout } from "node:timers/promises";
 import { folder, inFolder, launch, look, makeAngiogram, nacre, open, psnr, savePicture, settled } from "./support.mjs";
 
 const browser = await launch();
@@ -15,8 +17,10 @@ after(async () => {
 });
 
 /** A server with those arguments, and its address. */
-async function serve(...flags) {
-  const server = spawn(process.env.NACRE_BINARY, ["view", ...flags, "--no-open"], { cwd: folder });
+const serve = (...flags) => start(["view", ...flags, "--no-open"]);
+
+async function start(flags, env = process.env) {
+  const server = spawn(process.env.NACRE_BINARY, flags, { cwd: folder, env });
   running.add(server);
   let said = "";
   for await (const text of server.stdout) {
@@ -25,6 +29,11 @@ async function serve(...flags) {
     if (address) return { server, address: address[0] };
   }
   throw new Error(`it said no address: ${said}`);
+}
+
+async function until(isSo, what) {
+  for (let tries = 0; tries < 200 && !isSo(); ++tries) await setTimeout(50);
+  assert.ok(isSo(), what);
 }
 
 async function end(server, signal) {
@@ -95,6 +104,7 @@ test("levels are added, moved and deleted while it is served", async () => {
   await page.click("#live-add");
   assert.match(await page.textContent("#message"), /found 7, expected above 0 and up to 1/);
   assert.equal(await statusOf(address, "/level?emission=x", undefined, "POST"), 400);
+  assert.equal(await page.evaluate(() => document.documentElement.dataset.problem), undefined, "each shell was decoded");
   assert.deepEqual(page.problems, []);
   await page.close();
   assert.equal(await end(server, "SIGTERM"), 0);
@@ -122,6 +132,23 @@ test("a level to simplify is shown as it is first, then simplified, hidden or no
   assert.equal(await row.locator("input[type=checkbox]").isChecked(), false, "still hidden");
   assert.deepEqual(page.problems, []);
   await page.close();
+  assert.equal(await end(server, "SIGINT"), 0);
+});
+
+test("a desktop's opener gets the address, no held signal and a group of its own, and is waited for", async () => {
+  mkdirSync(inFolder("bin"));
+  writeFileSync(inFolder("bin/xdg-open"), `#!/bin/sh
+{ echo "$1"; echo $$; cut -d" " -f5 /proc/$$/stat; grep SigBlk /proc/$$/status; } > said.tmp
+mv said.tmp said.txt
+`, { mode: 0o755 });
+  const { server, address } = await start(["view", "angiogram.glb"],
+    { ...process.env, DISPLAY: ":0", PATH: `${inFolder("bin")}:${process.env.PATH}` });
+  await until(() => existsSync(inFolder("said.txt")), "the opener was started");
+  const [opened, pid, group, blocked] = readFileSync(inFolder("said.txt"), "utf8").trim().split("\n");
+  assert.equal(opened, address);
+  assert.match(blocked, /^SigBlk:\s*0+$/, "signals that stay blocked in the browser");
+  assert.equal(group.trim(), pid, "Ctrl+C ends the server, not the browser");
+  await until(() => !existsSync(`/proc/${pid}`), "nothing of the opener is left");
   assert.equal(await end(server, "SIGINT"), 0);
 });
 

@@ -123,11 +123,11 @@ export function vertexNormals(
   return normals;
 }
 
-/** Answers requests by `post`, one after the other. */
+/** Answers requests by `post`, one after the other; makes itself ready before the first. */
 export function serve(post: Post): (request: DecodeRequest) => void {
-  let ready: ReturnType<typeof makeDecoder> | null = null;
+  const ready = makeDecoder();
+  ready.catch(() => {}); // each request is told
   return (request) => {
-    ready ??= makeDecoder();
     ready.then((decodeNow) => {
       const start = performance.now();
       const mesh = decodeNow(request);

@@ -25,17 +25,20 @@ export class Slider {
   private readonly range: HTMLInputElement;
   private readonly number: HTMLInputElement;
 
-  /** @param logarithmic  the slider's place is the logarithm (base 2) of the value */
-  constructor(name: string, changed: (value: number) => void, private readonly logarithmic = false) {
+  /**
+   * @param changed      told whether the slider is being moved; a typed number comes once
+   * @param logarithmic  the slider's place is the logarithm (base 2) of the value
+   */
+  constructor(name: string, changed: (value: number, moving: boolean) => void, private readonly logarithmic = false) {
     const row = document.querySelector<HTMLElement>(`[data-slider="${name}"]`)!;
     const label = row.dataset.name!;
     this.range = element("input", { type: "range", id: `slider-${name}` });
     this.number = element("input", { type: "number", "aria-label": `${label}, as a number` });
     row.append(element("label", { for: `slider-${name}` }, label), this.range, this.number);
     this.range.addEventListener("input", () => changed(
-      logarithmic ? 2 ** this.range.valueAsNumber : this.range.valueAsNumber));
+      logarithmic ? 2 ** this.range.valueAsNumber : this.range.valueAsNumber, true));
     this.number.addEventListener("change", () => {
-      if (Number.isFinite(this.number.valueAsNumber)) changed(this.number.valueAsNumber);
+      if (Number.isFinite(this.number.valueAsNumber)) changed(this.number.valueAsNumber, false);
     });
   }
 

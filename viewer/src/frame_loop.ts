@@ -25,10 +25,12 @@ export class FrameLoop {
   private ends: number[] = [];
   /** Whether the last frame had less detail than one at rest. */
   private reduced = false;
+  private counts = true;
 
   constructor(
     private readonly gl: WebGL2RenderingContext,
-    private readonly draw: () => void,
+    /** Whether the picture has the detail that was asked for: its time then counts. */
+    private readonly draw: () => boolean,
     private readonly measured: () => void,
   ) {}
 
@@ -66,10 +68,13 @@ export class FrameLoop {
   }
 
   /** Of the device's pixels, in each direction. */
-  scale(): number { return this.isMoving() ? this.detail.scale : 1; }
+  scale(): number { return this.isMoving() ? this.detail.amount.scale : 1; }
 
   /** Every how many of the shells shown is drawn. */
-  stride(): number { return this.isMoving() ? this.detail.stride : 1; }
+  stride(): number { return this.isMoving() ? this.detail.amount.stride : 1; }
+
+  /** Whether shells that have a coarse copy are drawn as that. */
+  isCoarse(): boolean { return this.isMoving() && this.detail.amount.isCoarse; }
 
   /** After a lost context: what was in flight never ends. */
   restart(): void {
@@ -94,8 +99,8 @@ export class FrameLoop {
     clearTimeout(this.loadingTimer);
     this.loadingTimer = 0;
     this.started = performance.now();
-    this.reduced = this.scale() < 1 || this.stride() > 1;
-    this.draw();
+    this.reduced = this.scale() < 1 || this.stride() > 1 || this.isCoarse();
+    this.counts = this.draw();
     this.fence = this.gl.fenceSync(this.gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
     this.gl.flush();
     this.poll();
@@ -119,8 +124,8 @@ export class FrameLoop {
     this.milliseconds = now - this.started;
     this.ends = [...this.ends.filter((end) => end > now - 1000), now];
     this.rate = this.ends.length;
-    if (this.isMoving()) this.detail.account(this.milliseconds);
-    else this.detail.accountAtRest(this.milliseconds);
+    if (this.isMoving() && this.counts) this.detail.account(this.milliseconds);
+    else if (!this.isMoving()) this.detail.accountAtRest(this.milliseconds);
     this.measured();
   }
 }

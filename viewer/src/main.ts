@@ -2,6 +2,7 @@
 import { Actions, bindKeys } from "./actions";
 import { byId } from "./dom";
 import { Gestures } from "./gestures";
+import { showHintOnce } from "./hint";
 import { LiveLevels } from "./live";
 import { say } from "./message";
 import { Overlay } from "./overlay";
@@ -16,6 +17,13 @@ const page = document.documentElement;
 const setText = byId("nacre-set").textContent!.trim();
 const isLive = setText.startsWith("live:");
 
+/** A plain loop: Uint8Array.from with a function takes twenty times as long. */
+function bytesOf(characters: string): Uint8Array {
+  const bytes = new Uint8Array(characters.length);
+  for (let i = 0; i < bytes.length; ++i) bytes[i] = characters.charCodeAt(i);
+  return bytes;
+}
+
 /** The set as the page has it: its bytes in base64, "fetch:ADDRESS", "live:ADDRESS", or none. */
 async function ownSet(): Promise<Uint8Array | null> {
   const text = setText;
@@ -26,24 +34,51 @@ async function ownSet(): Promise<Uint8Array | null> {
     return new Uint8Array(await answer.arrayBuffer());
   }
   try {
-    return Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
+    return bytesOf(atob(text));
   } catch {
     return new Uint8Array(); // cut off or changed: no shell set, which is said
   }
 }
 
-/** The address follows the state, at most a few times a second. */
+/** User timing, for those who measure: the first picture with every shell, the first whole one. */
+function markPictures(viewer: Viewer): void {
+  const mark = (name: string, isThere: boolean): void => {
+    if (isThere && performance.getEntriesByName(name).length === 0) performance.mark(name);
+  };
+  viewer.listen((what) => {
+    if (what === "set") for (const name of ["first-picture", "whole-picture"]) performance.clearMarks(name);
+    if (what !== "frame" || !viewer.set) return;
+    mark("first-picture", viewer.picture.isComplete);
+    mark("whole-picture", viewer.picture.isWhole);
+  });
+}
+
+/** The address follows the state: at once, but a moving picture's at most a few times a second. */
 function keepAddress(viewer: Viewer): void {
   let written = location.hash.replace(/^#/, "");
   let timer = 0;
+  let isLate = false;
   const write = (): void => {
-    timer = 0;
     const hash = hashOf(viewer.state);
-    if (hash === written) return;
+    const isTaken = location.hash.replace(/^#/, "") !== written; // by a link, which is told soon
+    if (hash === written || isTaken) return;
     written = hash;
     history.replaceState(null, "", hash === "" ? location.pathname + location.search : `#${hash}`);
   };
-  viewer.listen((what) => { if (what === "state" && timer === 0) timer = window.setTimeout(write, 300); });
+  const follow = (): void => {
+    timer = 0;
+    if (!isLate) return;
+    isLate = false;
+    write();
+    timer = window.setTimeout(follow, 300);
+  };
+  viewer.listen((what) => {
+    if (what !== "state") return;
+    isLate = true;
+    if (timer !== 0 && viewer.loop.isMoving()) return;
+    clearTimeout(timer);
+    follow();
+  });
   window.addEventListener("hashchange", () => {
     const given = location.hash.replace(/^#/, "");
     if (given === written) return;
@@ -56,7 +91,11 @@ function showStatus(viewer: Viewer): void {
   const { loop, canvas } = viewer;
   const pixels = `${canvas.width} × ${canvas.height}`;
   const speed = loop.isMoving() && loop.rate > 1 ? `, ${loop.rate} a second` : "";
-  const shells = loop.stride() > 1 ? `, 1 shell of ${loop.stride()} while it moves` : "";
+  const less = [
+    ...(loop.isCoarse() ? ["coarse copies"] : []),
+    ...(loop.stride() > 1 ? [`1 shell of ${loop.stride()}`] : []),
+  ].join(", ");
+  const shells = less ? `, ${less} while it moves` : "";
   const thousands = Math.round(viewer.triangles / 1000).toLocaleString("en");
   byId("status").textContent =
     `${loop.milliseconds.toFixed(1)} ms a frame${speed}\n${thousands}k triangles, ${pixels}${shells}`;
@@ -94,6 +133,7 @@ function bindPanelToggle(): void {
   toggle.addEventListener("click", () => {
     const folded = document.body.classList.toggle("folded");
     toggle.setAttribute("aria-expanded", String(!folded));
+    toggle.textContent = folded ? "Controls" : "Hide controls";
   });
 }
 
@@ -118,7 +158,9 @@ async function start(): Promise<void> {
   bindKeys(actions);
   bindFiles(viewer, actions);
   bindPanelToggle();
+  showHintOnce(viewer, asked);
   keepAddress(viewer);
+  markPictures(viewer);
   viewer.state = stateOf(location.hash);
   viewer.listen((what) => {
     if (viewer.set && (what === "state" || what === "tools")) page.dataset.state = "drawing";

@@ -4,6 +4,7 @@ import { viewNames, type ViewName } from "./camera";
 import { colorMapNames } from "./color_maps";
 import { byId, element, onClick, Slider } from "./dom";
 import type { Mode } from "./plan";
+import { trianglesOf, type ShellSet } from "./shell_set";
 import { ShellList } from "./shell_list";
 import { ToolList } from "./tool_list";
 import { commandOf, noCue, noSlab, type State } from "./state";
@@ -39,22 +40,22 @@ export class Panel {
 
   private makeSliders(): Record<string, Slider> {
     const { viewer } = this;
-    const camera = (key: keyof State["camera"]) => (value: number): void =>
-      viewer.changeCamera({ [key]: value }, true);
-    const cue = (key: keyof State["cue"]) => (value: number): void =>
-      viewer.change({ cue: { ...viewer.state.cue, [key]: value } }, true);
+    const camera = (key: keyof State["camera"]) => (value: number, moving: boolean): void =>
+      viewer.changeCamera({ [key]: value }, moving);
+    const cue = (key: keyof State["cue"]) => (value: number, moving: boolean): void =>
+      viewer.change({ cue: { ...viewer.state.cue, [key]: value } }, moving);
     const made: Record<string, Slider> = {
-      level: new Slider("level", (level) => this.setWindow(level, null)),
-      width: new Slider("width", (width) => this.setWindow(null, width)),
+      level: new Slider("level", (level, moving) => this.setWindow(level, null, moving)),
+      width: new Slider("width", (width, moving) => this.setWindow(null, width, moving)),
       "cine-speed": new Slider("cine-speed", (speed) => { this.actions.cineSpeed = speed; this.show(); }),
-      perspective: new Slider("perspective", (value) =>
-        viewer.changeCamera({ perspective: clamp(value, 0, 170), distance: null }, true)),
-      distance: new Slider("distance", (value) => camera("distance")(Math.max(0, value))),
+      perspective: new Slider("perspective", (value, moving) =>
+        viewer.changeCamera({ perspective: clamp(value, 0, 170), distance: null }, moving)),
+      distance: new Slider("distance", (value, moving) => camera("distance")(Math.max(0, value), moving)),
       roll: new Slider("roll", camera("roll")),
-      zoom: new Slider("zoom", (value) => camera("zoom")(clamp(value, 0.05, 200)), true),
+      zoom: new Slider("zoom", (value, moving) => camera("zoom")(clamp(value, 0.05, 200), moving), true),
       a: new Slider("a", cue("a")), b: new Slider("b", cue("b")), beta0: new Slider("beta0", cue("beta0")),
-      "slab-near": new Slider("slab-near", (lo) => this.setSlab(lo, null)),
-      "slab-far": new Slider("slab-far", (hi) => this.setSlab(null, hi)),
+      "slab-near": new Slider("slab-near", (lo, moving) => this.setSlab(lo, null, moving)),
+      "slab-far": new Slider("slab-far", (hi, moving) => this.setSlab(null, hi, moving)),
     };
     made["cine-speed"].limits(-120, 120, 1);
     made.perspective.limits(0, 120, 1);
@@ -66,20 +67,20 @@ export class Panel {
     return made;
   }
 
-  private setWindow(level: number | null, width: number | null): void {
+  private setWindow(level: number | null, width: number | null, moving: boolean): void {
     const { lo, hi } = this.viewer.window();
     const middle = level ?? (lo + hi) / 2;
     const half = Math.max(width ?? hi - lo, 1e-4) / 2;
-    this.viewer.change({ window: { lo: middle - half, hi: middle + half } }, true);
+    this.viewer.change({ window: { lo: middle - half, hi: middle + half } }, moving);
   }
 
   /** The end that is moved pushes the other one before it. */
-  private setSlab(lo: number | null, hi: number | null): void {
+  private setSlab(lo: number | null, hi: number | null, moving: boolean): void {
     const least = this.radius() / 500;
     const slab = { ...this.viewer.state.slab };
     if (lo !== null) slab.hi = Math.max(slab.hi, lo + least);
     if (hi !== null) slab.lo = Math.min(slab.lo, hi - least);
-    this.viewer.change({ slab: { lo: lo ?? slab.lo, hi: hi ?? slab.hi } }, true);
+    this.viewer.change({ slab: { lo: lo ?? slab.lo, hi: hi ?? slab.hi } }, moving);
   }
 
   private radius(): number { return this.viewer.set?.sphere.radius ?? 100; }
@@ -186,7 +187,7 @@ export class Panel {
   private facts(): [string, string][] {
     const { set } = this.viewer;
     if (!set) return [];
-    const triangles = set.levels.reduce((sum, level) => sum + level.triangles, 0);
+    const triangles = trianglesOf(set.levels);
     const mm = set.spacing.map((x) => Number(x.toPrecision(4))).join(" × ");
     const ends = [set.emission[0], set.emission[set.emission.length - 1]];
     const list: [string, string][] = [
@@ -197,7 +198,7 @@ export class Panel {
       ["Grid", `${set.bits} bits, ${Number(set.step.toPrecision(3))} mm a step`],
       ["Simplified", set.tolerance > 0 ? `by up to ${set.tolerance} in emission` : "no"],
     ];
-    return [...list, ...certificateFacts(set.certificate)];
+    return [...list, ...certificateFacts(set.certificate), ...copiesFacts(set)];
   }
 }
 
@@ -218,6 +219,15 @@ function errorFact(name: string, error: unknown, unit: string): [string, string]
   const psnr = `PSNR ${decibels(memberOf(error, "psnr_db"))} over all pixels, ${decibels(memberOf(error, "psnr_lit_db"))} over lit ones`;
   const errors = `RMSE ${digits(memberOf(error, "rmse"), 3)}, largest error ${digits(memberOf(error, "max_error"), 3)} ${unit}`;
   return [[name, `${psnr}; ${errors}`]];
+}
+
+/** What coarse copies are for, and what their pictures are worth. */
+function copiesFacts(set: ShellSet): [string, string][] {
+  if (!set.coarse) return [];
+  const triangles = trianglesOf(set.levels.map((level) => level.coarse ?? level)).toLocaleString("en");
+  const what = `${triangles} triangles, simplified by up to ${set.coarse.tolerance} in emission; drawn while a large set loads, and turning where frames run late`;
+  const error = errorFact("Their maximum", set.coarse.error, "(emission, 0 to 1)");
+  return [["Coarse copies", what], ...(error.length > 0 ? error : [["Their maximum", "error not measured"] as [string, string]])];
 }
 
 /** The certificate: how far pictures and surfaces are from the exact ones. */

@@ -18,7 +18,8 @@ export interface ShellFacts {
   /** What sums show for the layer, most often the same. */
   sumRepresentative: number;
   triangles: number;
-  bounds: Box;
+  /** Bounds of whatever may be drawn for it. */
+  reach: Box;
 }
 
 export interface Scene {
@@ -177,7 +178,7 @@ const within = (inner: Box, outer: Box): boolean => inner.lo.every(
 function planLit(plan: Plan, shells: Shown[]): void {
   const outermost = shells[0];
   const drawn = outermost.startsInside ? shells : shells.filter((shell) =>
-    shell === outermost || !within(shell.facts.bounds, outermost.facts.bounds));
+    shell === outermost || !within(shell.facts.reach, outermost.facts.reach));
   const draws = drawn.map((shell) => drawOf(shell, shell.startsInside ? "both" : "front"));
   const depths = {
     lo: Math.min(...drawn.map((shell) => shell.depths.lo)),
@@ -201,7 +202,7 @@ function findTools(plan: Plan, scene: Scene, camera: Camera): void {
 
 /** Fills in where rays start and end; false for a shell that no ray meets. */
 function findEnds(shell: Shown, plan: Plan, scene: Scene, camera: Camera, options: PictureOptions): boolean {
-  const { bounds } = shell.facts;
+  const bounds = shell.facts.reach;
   const slabStart = viewDepthOfSlab(camera, options.slab.lo);
   const depths = rangeOn(bounds, viewDepth(camera, scene.center));
   shell.depths = depths;

@@ -4,7 +4,7 @@
  */
 import type { DecodeReply, DecodeRequest } from "./decoder";
 import { deleteMesh, uploadMesh, type GpuMesh } from "./meshes";
-import type { Level } from "./shell_set";
+import { trianglesOf, type Surface } from "./shell_set";
 
 interface Decoder { send(request: DecodeRequest): void }
 
@@ -40,14 +40,14 @@ export interface LoadingState { wanted: number; loaded: number; problem: string 
 
 export class ShellLoader {
   problem = "";
-  private readonly meshes = new Map<Level, GpuMesh>();
-  /** Levels that show the mesh of another until their own is there. */
-  private readonly borrowed = new Set<Level>();
-  private readonly refused = new Set<Level>();
-  private queue: Level[] = [];
-  private wanted: Level[] = [];
+  private readonly meshes = new Map<Surface, GpuMesh>();
+  /** Surfaces that show the mesh of another until their own is there. */
+  private readonly borrowed = new Set<Surface>();
+  private readonly refused = new Set<Surface>();
+  private queue: Surface[] = [];
+  private wanted: Surface[] = [];
   private normals = false;
-  private inFlight: { id: number; level: Level; normals: boolean } | null = null;
+  private inFlight: { id: number; surface: Surface; normals: boolean } | null = null;
   private nextId = 1;
   private readonly decoder: Decoder;
 
@@ -59,28 +59,31 @@ export class ShellLoader {
     this.decoder = startDecoder(source, (reply) => this.receive(reply));
   }
 
-  meshOf(level: Level): GpuMesh | undefined { return this.meshes.get(level); }
+  /** What there is to draw it with; where normals are needed, only what has them. */
+  meshOf(surface: Surface, normals: boolean): GpuMesh | undefined {
+    const mesh = this.meshes.get(surface);
+    return mesh && (mesh.hasNormals || !normals) ? mesh : undefined;
+  }
 
-  /** Says which shells are wanted, the most urgent first. */
-  want(levels: Level[], normals: boolean): void {
-    this.wanted = levels.filter((level) => level.bytes.length > 0);
+  /** Says which surfaces are wanted, the most urgent first. */
+  want(surfaces: Surface[], normals: boolean): void {
+    this.wanted = surfaces.filter((surface) => surface.bytes.length > 0);
     this.normals = normals;
-    this.queue = this.wanted.filter((level) => !this.isThere(level) && !this.refused.has(level));
+    this.queue = this.wanted.filter((surface) => !this.isThere(surface) && !this.refused.has(surface));
     this.next();
   }
 
   /** Progress, in triangles: what decoding time goes with. */
   state(): LoadingState {
-    const triangles = (levels: Level[]): number => levels.reduce((sum, l) => sum + l.triangles, 0);
     return {
-      wanted: triangles(this.wanted),
-      loaded: triangles(this.wanted.filter((level) => this.isThere(level) || this.refused.has(level))),
+      wanted: trianglesOf(this.wanted),
+      loaded: trianglesOf(this.wanted.filter((surface) => this.isThere(surface) || this.refused.has(surface))),
       problem: this.problem,
     };
   }
 
-  /** A level in place of another: shows its mesh until its own is decoded. */
-  replace(old: Level, by: Level): void {
+  /** A surface in place of another: shows its mesh until its own is decoded. */
+  replace(old: Surface, by: Surface): void {
     const mesh = this.meshes.get(old);
     this.meshes.delete(old);
     this.forget(old);
@@ -89,19 +92,22 @@ export class ShellLoader {
     this.borrowed.add(by);
   }
 
-  /** Whether the level shows its own shell, or has none. */
-  isSettled(level: Level): boolean {
-    return level.bytes.length === 0 || this.refused.has(level) || (this.meshes.has(level) && !this.borrowed.has(level));
+  /** Whether the surface shows its own shell, or has none. */
+  isSettled(surface: Surface): boolean {
+    return surface.bytes.length === 0 || this.refused.has(surface) || (this.meshes.has(surface) && !this.borrowed.has(surface));
   }
 
-  forget(level: Level): void {
-    const mesh = this.meshes.get(level);
+  forget(surface: Surface): void {
+    const mesh = this.meshes.get(surface);
     if (mesh) deleteMesh(this.gl, mesh);
-    this.meshes.delete(level);
-    this.refused.delete(level);
-    this.borrowed.delete(level);
-    if (this.inFlight?.level === level) this.inFlight = null; // its answer is then passed over
+    this.meshes.delete(surface);
+    this.refused.delete(surface);
+    this.borrowed.delete(surface);
+    if (this.inFlight?.surface === surface) this.inFlight = null; // its answer is then passed over
   }
+
+  /** Whether its bytes were damaged: it is not shown at all. */
+  isRefused(surface: Surface): boolean { return this.refused.has(surface); }
 
   /** After a lost context: nothing is there any more. */
   forgetAll(): void {
@@ -109,20 +115,20 @@ export class ShellLoader {
     this.borrowed.clear();
   }
 
-  private isThere(level: Level): boolean {
-    const mesh = this.meshes.get(level);
-    return mesh !== undefined && !this.borrowed.has(level) && (mesh.hasNormals || !this.normals);
+  private isThere(surface: Surface): boolean {
+    const mesh = this.meshes.get(surface);
+    return mesh !== undefined && !this.borrowed.has(surface) && (mesh.hasNormals || !this.normals);
   }
 
   private next(): void {
     if (this.inFlight) return;
-    const level = this.queue.shift();
-    if (!level) return;
-    this.inFlight = { id: this.nextId++, level, normals: this.normals };
+    const surface = this.queue.shift();
+    if (!surface) return;
+    this.inFlight = { id: this.nextId++, surface, normals: this.normals };
     this.decoder.send({
-      id: this.inFlight.id, bytes: level.bytes.slice(), checksum: level.checksum,
-      triangles: level.triangles, vertices: level.vertices, lo: level.bounds.lo,
-      hi: level.bounds.hi, normals: this.normals,
+      id: this.inFlight.id, bytes: surface.bytes.slice(), checksum: surface.checksum,
+      triangles: surface.triangles, vertices: surface.vertices, lo: surface.bounds.lo,
+      hi: surface.bounds.hi, normals: this.normals,
     });
   }
 
@@ -131,11 +137,11 @@ export class ShellLoader {
     if (!done || done.id !== reply.id) return;
     this.inFlight = null;
     if (reply.mesh && !this.gl.isContextLost()) {
-      this.forget(done.level);
-      this.meshes.set(done.level, uploadMesh(this.gl, reply.mesh));
+      this.forget(done.surface);
+      this.meshes.set(done.surface, uploadMesh(this.gl, reply.mesh));
     } else if (reply.problem) {
-      this.refused.add(done.level);
-      this.problem = `Shell at emission ${done.level.emission.toPrecision(3)}: ${reply.problem}`;
+      this.refused.add(done.surface);
+      this.problem = `${done.surface.name}: ${reply.problem}`;
     }
     this.want(this.wanted, this.normals);
     this.changed();

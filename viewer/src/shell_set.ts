@@ -9,11 +9,10 @@ import { length, type Vec3 } from "./vector";
 /** What is wrong with a file, in a line for people. */
 export class FileProblem extends Error {}
 
-export interface Level {
-  emission: number;
-  value: number;
-  representative: number;
-  sumRepresentative: number;
+/** A surface as the file holds it. */
+export interface Surface {
+  /** What it is, in a line that says what is wrong with it. */
+  name: string;
   triangles: number;
   vertices: number;
   /** Of positions, mm relative to the set's centre. */
@@ -21,6 +20,20 @@ export interface Level {
   /** Compressed bytes; empty for a level that the volume does not reach. */
   bytes: Uint8Array;
   checksum: string;
+}
+
+export const trianglesOf = (surfaces: readonly Surface[]): number =>
+  surfaces.reduce((sum, surface) => sum + surface.triangles, 0);
+
+export interface Level extends Surface {
+  emission: number;
+  value: number;
+  representative: number;
+  sumRepresentative: number;
+  /** A copy with fewer triangles, for a first picture and for slow machines. */
+  coarse: Surface | null;
+  /** The bounds of both. */
+  reach: Box;
 }
 
 export interface ShellSet {
@@ -36,6 +49,8 @@ export interface ShellSet {
   bits: number;
   step: number;
   certificate: unknown;
+  /** What coarse copies are worth, where there are any; `error` as in the file, of maxima. */
+  coarse: { tolerance: number; error: unknown } | null;
   generator: string;
   fileBytes: number;
 }
@@ -93,21 +108,19 @@ function boundsOf(accessor: Json): Box {
   return { lo: vectorOf(accessor?.min, "an accessor's min"), hi: vectorOf(accessor?.max, "an accessor's max") };
 }
 
-function levelOf(chunks: Chunks, level: Json, k: number): Level {
-  const where = `levels[${k}]`;
-  const representative = numberOf(level?.representative, `${where}.representative`);
-  const common = {
-    emission: numberOf(level.emission, `${where}.emission`),
-    value: numberOf(level.value, `${where}.value`),
-    representative,
-    sumRepresentative: numberOf(level.sum_representative ?? representative, `${where}.sum_representative`),
-  };
-  if (level.mesh === null) {
+const around = (a: Box, b: Box): Box => ({
+  lo: a.lo.map((x, i) => Math.min(x, b.lo[i])) as unknown as Vec3,
+  hi: a.hi.map((x, i) => Math.max(x, b.hi[i])) as unknown as Vec3,
+});
+
+/** The surface that a level, or its copy, speaks of. */
+function surfaceOf(chunks: Chunks, given: Json, where: string, name: string): Surface {
+  if (given.mesh === null) {
     const nowhere: Vec3 = [0, 0, 0];
-    return { ...common, triangles: 0, vertices: 0, checksum: "", bytes: new Uint8Array(),
+    return { name, triangles: 0, vertices: 0, checksum: "", bytes: new Uint8Array(),
       bounds: { lo: nowhere, hi: nowhere } };
   }
-  const primitive = chunks.json.meshes?.[countOf(level.mesh, `${where}.mesh`)]?.primitives?.[0];
+  const primitive = chunks.json.meshes?.[countOf(given.mesh, `${where}.mesh`)]?.primitives?.[0];
   const draco = primitive?.extensions?.KHR_draco_mesh_compression;
   const view = chunks.json.bufferViews?.[countOf(draco?.bufferView, `the mesh of ${where}`)];
   const offset = countOf(view?.byteOffset ?? 0, `the bytes of ${where}`);
@@ -116,12 +129,29 @@ function levelOf(chunks: Chunks, level: Json, k: number): Level {
     problem(`the bytes of ${where} beyond the file's end`, "them within the file");
   }
   return {
-    ...common,
-    triangles: countOf(level.triangles, `${where}.triangles`),
-    vertices: countOf(level.vertices, `${where}.vertices`),
-    checksum: String(level.checksum),
+    name,
+    triangles: countOf(given.triangles, `${where}.triangles`),
+    vertices: countOf(given.vertices, `${where}.vertices`),
+    checksum: String(given.checksum),
     bytes: chunks.binary.subarray(offset, offset + size),
     bounds: boundsOf(chunks.json.accessors?.[primitive.attributes?.POSITION]),
+  };
+}
+
+function levelOf(chunks: Chunks, level: Json, k: number): Level {
+  const where = `levels[${k}]`;
+  const representative = numberOf(level?.representative, `${where}.representative`);
+  const emission = numberOf(level.emission, `${where}.emission`);
+  const at = `at emission ${emission.toPrecision(3)}`;
+  const shell = surfaceOf(chunks, level, where, `Shell ${at}`);
+  const coarse = level.coarse
+    ? surfaceOf(chunks, level.coarse, `${where}.coarse`, `Coarse copy of the shell ${at}`) : null;
+  return {
+    ...shell, emission, coarse,
+    reach: coarse ? around(shell.bounds, coarse.bounds) : shell.bounds,
+    value: numberOf(level.value, `${where}.value`),
+    representative,
+    sumRepresentative: numberOf(level.sum_representative ?? representative, `${where}.sum_representative`),
   };
 }
 
@@ -174,6 +204,8 @@ export function readShellSet(file: Uint8Array): ShellSet {
     bits: countOf(extras.grid?.bits, "grid.bits"),
     step: numberOf(extras.grid?.step_mm, "grid.step_mm"),
     certificate: extras.certificate,
+    coarse: extras.coarse
+      ? { tolerance: numberOf(extras.coarse.tolerance, "coarse.tolerance"), error: extras.coarse.max } : null,
     generator: String(chunks.json.asset?.generator ?? ""),
     fileBytes: file.length,
   };

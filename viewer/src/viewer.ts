@@ -4,11 +4,17 @@ import { FrameLoop } from "./frame_loop";
 import { ShellLoader } from "./shell_loader";
 import { makePlan, type Mode, type Plan, type PictureOptions, type Scene } from "./plan";
 import type { Interval } from "./projection";
+import type { GpuMesh } from "./meshes";
 import { Renderer, type Display, type FloatTargets, type Frame } from "./renderer";
 import { ownWindowSide, pngOf } from "./picture_file";
-import type { Level, ShellSet } from "./shell_set";
+import { trianglesOf, type Level, type ShellSet, type Surface } from "./shell_set";
 import { firstState, lawfulCue, type State } from "./state";
 import { ToolShelf } from "./tools";
+
+/** Triangles to decode from which on coarse copies come first: they take a part of a second. */
+const manyTriangles = 400_000;
+/** Copies are worth it with at most this share of the triangles. */
+const copiesShare = 0.5;
 
 /** Most pixels of the canvas a CSS pixel, in each direction. */
 const mostPixelRatio = 2;
@@ -22,11 +28,13 @@ export class Viewer {
   readonly loop: FrameLoop;
   readonly loader: ShellLoader;
   plan: Plan | null = null;
+  /** Whether the last picture had every shell, as itself or as its copy; and all as themselves. */
+  picture = { isComplete: false, isWhole: false };
   private renderer: Renderer;
   private readonly gl: WebGL2RenderingContext;
   private listeners: Listener[] = [];
   /** The largest sum and count of the whole set, once known. */
-  private readonly largest = new Map<Mode, number>();
+  private readonly largest = new Map<Mode, { value: number; isWhole: boolean }>();
 
   constructor(
     readonly canvas: HTMLCanvasElement, decoderSource: string, private readonly floats: FloatTargets,
@@ -54,11 +62,13 @@ export class Viewer {
 
   /** Shows another set; the state stays as far as it makes sense. */
   open(set: ShellSet): void {
-    for (const level of this.set?.levels ?? []) this.loader.forget(level);
+    for (const level of this.set?.levels ?? []) this.forget(level);
     this.loader.problem = "";
     this.largest.clear();
     this.set = set;
     this.state.hidden = new Set([...this.state.hidden].filter((k) => k < set.levels.length));
+    const copies = set.levels.map((level) => level.coarse ?? level);
+    this.loop.detail.begin(trianglesOf(copies) / Math.max(1, trianglesOf(set.levels)));
     this.tell("set");
     this.change({});
   }
@@ -85,7 +95,7 @@ export class Viewer {
   /** A list of levels that has changed: one added, gone, or another in the place of an old one. */
   levelsChanged(old: Level | null, made: Level | null): void {
     if (old && made) this.loader.replace(old, made);
-    else if (old) this.loader.forget(old);
+    else if (old) this.forget(old);
     this.largest.clear();
     this.tell("set");
     this.change({});
@@ -102,16 +112,21 @@ export class Viewer {
     const { window, mode } = this.state;
     if (window) return window;
     if (mode === "max" || mode === "iso") return { lo: 0, hi: 1 };
-    return { lo: 0, hi: this.largest.get(mode) || 1 };
+    return { lo: 0, hi: this.largest.get(mode)?.value || 1 };
   }
 
   /** This view as a PNG, drawn anew at that size. */
   async save(width: number, height: number): Promise<Blob> {
-    const frame = this.frame(this.camera(width, height), this.state.hidden);
+    const frame = this.frame(this.camera(width, height), this.state.hidden, false);
     const blob = await pngOf(this.gl, width, height, (target) =>
       this.renderer.draw(frame, this.display(), target));
     this.loop.invalidate();
     return blob;
+  }
+
+  private forget(level: Level): void {
+    this.loader.forget(level);
+    if (level.coarse) this.loader.forget(level.coarse);
   }
 
   private tell(what: Parameters<Listener>[0]): void {
@@ -123,7 +138,8 @@ export class Viewer {
     return { mode, colorMap, over, window: this.window() };
   }
 
-  private frame(camera: Camera, hidden: ReadonlySet<number>): Frame {
+  /** @param coarse  whether shells that have a copy are drawn as that */
+  private frame(camera: Camera, hidden: ReadonlySet<number>, coarse: boolean): Frame {
     const levels = this.set?.levels ?? [];
     const tools = this.shelf.scene();
     const scene: Scene = { center: this.set?.center ?? [0, 0, 0], shells: levels, tools: tools.bounds };
@@ -131,8 +147,37 @@ export class Viewer {
     const plan = makePlan(scene, camera, options);
     return {
       camera, plan, origin: scene.center, tools: tools.gpu,
-      shells: levels.map((level) => this.loader.meshOf(level)),
+      shells: levels.map((level) => this.meshOf(level, plan.normals, coarse)),
     };
+  }
+
+  /** A shell or its copy; either stands in for the other until that is there. */
+  private meshOf(level: Level, normals: boolean, coarse: boolean): GpuMesh | undefined {
+    if (this.loader.isRefused(level)) return undefined;
+    const copy = level.coarse ? this.loader.meshOf(level.coarse, normals) : undefined;
+    const shell = this.loader.meshOf(level, normals);
+    return coarse ? copy ?? shell : shell ?? copy;
+  }
+
+  /**
+   * What is to be decoded for a plan, the most urgent first: copies before shells where they make a
+   * picture much sooner or the picture moves too slowly; after them where it would if it moved.
+   */
+  private wishes(plan: Plan): Surface[] {
+    const levels = plan.wanted.map((k) => this.set!.levels[k]);
+    const copiesOf = (of: Level[]): Surface[] => of.flatMap((level) => level.coarse ?? []);
+    const { detail } = this.loop;
+    if (detail.isFixed) return levels;
+    const isThere = (surface: Surface): boolean => this.loader.meshOf(surface, plan.normals) !== undefined;
+    const missing = levels.filter((level) => !isThere(level));
+    const first = copiesOf(missing);
+    const isSooner = trianglesOf(missing) >= manyTriangles &&
+      trianglesOf(first) <= copiesShare * trianglesOf(missing);
+    const all = copiesOf(levels);
+    return [...new Set<Surface>([
+      ...(isSooner ? first : []), ...(this.loop.isCoarse() ? all : all.filter(isThere)), ...levels,
+      ...(detail.amount.isCoarse ? all : []),
+    ])];
   }
 
   /** Those hidden, and of the others all but every so many while the picture moves too slowly. */
@@ -146,42 +191,60 @@ export class Viewer {
     return hidden;
   }
 
-  private draw(): void {
-    if (this.gl.isContextLost()) return;
+  /** Whether the picture has what is to be judged by its time: a moving one its copies. */
+  private draw(): boolean {
+    if (this.gl.isContextLost()) return false;
     const { canvas } = this;
     const ratio = Math.min(window.devicePixelRatio, mostPixelRatio) * this.loop.scale();
     const width = Math.max(1, Math.round(canvas.clientWidth * ratio));
     const height = Math.max(1, Math.round(canvas.clientHeight * ratio));
     if (canvas.width !== width) canvas.width = width;
     if (canvas.height !== height) canvas.height = height;
-    const frame = this.frame(this.camera(width, height), this.hiddenNow());
+    const coarse = this.loop.isCoarse();
+    const frame = this.frame(this.camera(width, height), this.hiddenNow(), coarse);
     this.plan = frame.plan;
     const levels = this.set?.levels ?? [];
-    this.loader.want(frame.plan.wanted.map((k) => levels[k]), frame.plan.normals);
-    this.findOwnWindow(frame);
+    const { wanted, normals } = frame.plan;
+    this.loader.want(this.wishes(frame.plan), normals);
+    this.findOwnWindow();
     this.renderer.draw(frame, this.display(), null);
+    const drawn = wanted.map((k) => levels[k]);
+    this.picture = {
+      isComplete: wanted.every((k) => frame.shells[k] || this.loader.isRefused(levels[k])),
+      isWhole: !coarse && drawn.every((level) => this.loader.isSettled(level)),
+    };
+    return !coarse || drawn.every((level) => !level.coarse || this.loader.meshOf(level.coarse, normals));
   }
 
-  /** Sums and counts are shown up to their largest, found once in a small picture of all shells. */
-  private findOwnWindow(frame: Frame): void {
+  /**
+   * Sums and counts are shown up to their largest, found in a small picture of all shells: once of
+   * their copies, where those come first, and once of the shells themselves.
+   */
+  private findOwnWindow(): void {
     const { mode, window } = this.state;
-    if (window || (mode !== "sum" && mode !== "count") || this.largest.has(mode)) return;
-    if (!frame.plan.wanted.every((k) => frame.shells[k])) return;
-    const side = ownWindowSide / Math.max(frame.camera.width, frame.camera.height);
-    const camera = this.camera(
-      Math.round(frame.camera.width * side), Math.round(frame.camera.height * side));
-    const largest = this.renderer.largest(this.frame(camera, this.state.hidden));
-    if (largest > 0) this.largest.set(mode, largest);
+    const known = this.largest.get(mode);
+    if (window || (mode !== "sum" && mode !== "count") || known?.isWhole) return;
+    const { width, height } = this.canvas;
+    const side = ownWindowSide / Math.max(width, height);
+    const camera = this.camera(Math.round(width * side), Math.round(height * side));
+    const frame = this.frame(camera, this.state.hidden, false);
+    const isWhole = frame.plan.wanted.every((k) => this.loader.meshOf(this.set!.levels[k], false));
+    if (!frame.plan.wanted.every((k) => frame.shells[k]) || (known && !isWhole)) return;
+    const value = this.renderer.largest(frame);
+    if (value > 0) this.largest.set(mode, { value, isWhole });
     this.tell("state");
   }
 
   forgetOwnWindow(): void { this.largest.delete(this.state.mode); }
 
   private loaded(): void {
-    this.tell("loading");
     const { wanted, loaded } = this.loader.state();
-    if (loaded < wanted) this.loop.invalidateLoading();
+    const levels = this.plan?.wanted.map((k) => this.set!.levels[k]) ?? [];
+    const isComplete = levels.every((level) => this.meshOf(level, this.plan!.normals, false));
+    const isFirst = isComplete && !this.picture.isComplete;
+    if (loaded < wanted && !isFirst) this.loop.invalidateLoading();
     else this.loop.invalidate();
+    this.tell("loading"); // afterwards: the picture is not ready before it is drawn
   }
 
   private restore(): void {
