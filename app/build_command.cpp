@@ -232,7 +232,7 @@ void add_build_verb(CLI::App& app, int& /*status*/) {
           "--coarse", flags->shells.coarse,
           "Coarser copies of simplified shells in the file, for a first picture soon: none, the "
           "emission error they may have (above --tolerance), or auto (2 / levels, for a .glb of "
-          "more than 200,000 triangles that they make at most a quarter larger)")
+          "more than 200,000 triangles that they make at most 30 % larger)")
       ->capture_default_str()
       ->group("Shells");
   add_volume_reading_flags(*verb, flags->volume);

@@ -24,7 +24,7 @@ class CoarseCopies : public testing::CommandTest {
       const auto result = testing::run_command(NACRE_BINARY, arguments, folder.path());
       ASSERT_EQ(result.status, 0) << arguments << "\n" << result.errors;
     };
-    run("phantom torus --size 24,22,20 -o t.nii");
+    run("phantom torus --size 20,18,16 -o t.nii");
     run("build t.nii --levels 4 --tolerance 0.005 --certificate 64x64 --coarse 0.125 -o set.glb");
     volume() = testing::read_bytes(folder.path() / "t.nii");
     set() = testing::read_bytes(folder.path() / "set.glb");
@@ -108,8 +108,10 @@ TEST_F(CoarseCopies, AreRefusedWhereThereAreNone) {
   expect_refusal("render t.nii --coarse -o c.png", 2, "found no .glb file");
 }
 
+using CoarseFlag = testing::CommandTest;
+
 // A volume that is not there would be missed first.
-TEST_F(CoarseCopies, BadTolerancesAreRefusedBeforeTheVolumeIsRead) {
+TEST_F(CoarseFlag, BadTolerancesAreRefusedBeforeTheVolumeIsRead) {
   const std::string build = "build none.nii -o c.glb --tolerance 0.01 --coarse ";
   expect_refusal(build + "much", 2, "--coarse: found much");
   expect_refusal(build + "0.01", 2, "--coarse: found 0.01");
