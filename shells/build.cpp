@@ -185,7 +185,7 @@ void simplify_shells(const Volume& volume, const EmissionMap& emission, const Bu
   });
 }
 
-/// Coarser copies of the shells, not snapped yet at this point: an eighth of the time that the
+/// Coarser copies of simplified shells, on the grid already: a seventh of the time that the
 /// shells' own simplification takes (docs/decisions/024-coarse-copies.md).
 std::vector<TriangleMesh> coarser_copies(const Volume& volume, const EmissionMap& emission,
                                          const BuildOptions& options,
