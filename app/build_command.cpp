@@ -68,14 +68,12 @@ ordered_json tell_coarse(const CompressedSet& built, const BuildFigures& figures
     triangles += copy.triangles;
     bytes += copy.bytes.size();
   }
-  reporter.say(fmt::format("coarse copies: {} triangles, {} of these bytes, emission error {:.4g}",
+  reporter.say(fmt::format("copies       {} triangles, {} of these bytes, emission error {:.4g}",
                            triangles, bytes, built.coarse->tolerance));
   ordered_json json = {
       {"tolerance", built.coarse->tolerance}, {"triangles", triangles}, {"bytes", bytes}};
-  if (!figures.coarse_error.is_null()) {
-    json["max"] = figures.coarse_error;
-    reporter.say("coarse copies: maxima " + figures.coarse_error.dump());
-  }
+  json.update(figures.coarse_error);
+  say_copies_error(json, reporter);
   return json;
 }
 
@@ -102,8 +100,11 @@ ordered_json certificate_of(const BuildFlags& flags, const CompressedSet& built,
   return certificate;
 }
 
-/// A budget is for what a scene needs at most, and holds for the file: it has no room for copies.
+/// @throws Error  BadArgument for copies that cannot be; a budget is for what a scene needs at
+/// most,
+///                and holds for the file: it has no room for them
 void check_copies(const BuildFlags& flags) {
+  named_copies_tolerance(flags.shells);
   const std::string& coarse = flags.shells.coarse;
   if (flags.budget.empty() || coarse == kAutoCopies || coarse == kNoCopies) return;
   throw Error(ErrorCode::BadArgument,
@@ -114,11 +115,18 @@ void check_certificate(const std::string& certificate) {
   if (certificate != kNoCertificate) parse_size("--certificate", certificate);
 }
 
+/// The flags of shells; a page shows no copies, and holds none that nobody asked for.
+ShellFlags shell_flags(const BuildFlags& flags) {
+  ShellFlags shells = flags.shells;
+  if (shells.coarse == kAutoCopies && is_page_name(flags.output)) shells.coarse = kNoCopies;
+  return shells;
+}
+
 CompressedSet build_set(const BuildFlags& flags, EmissionVolume input, Reporter& reporter,
                         BuildFigures& figures) {
   const std::filesystem::path folder = std::filesystem::path(flags.output).parent_path();
   if (flags.budget.empty()) {
-    return build_compressed_set(flags.shells, std::move(input), folder, reporter, figures);
+    return build_compressed_set(shell_flags(flags), std::move(input), folder, reporter, figures);
   }
   BudgetFlags budget{.budget = flags.budget, .is_certified = flags.certificate != kNoCertificate};
   if (budget.is_certified) {
@@ -146,7 +154,10 @@ void run_build(const BuildFlags& flags) {
   for (const ordered_json& level : levels) reporter.detail("  " + level.dump());
   const ordered_json certificate = certificate_of(flags, built, reporter, figures);
   std::optional<CoarseShells> copies = built.coarse;
-  if (copies && !figures.coarse_error.is_null()) copies->error_json = figures.coarse_error.dump();
+  if (copies && !figures.coarse_error.empty()) {
+    copies->max_error_json = figures.coarse_error.at("max").dump();
+    copies->sum_error_json = figures.coarse_error.at("sum").dump();
+  }
   const std::vector<std::byte> bytes = assemble_shell_set(
       set, built.shells,
       {.certificate_json = certificate.is_null() ? std::string() : certificate.dump(),
@@ -200,6 +211,7 @@ void add_build_verb(CLI::App& app, int& /*status*/) {
       "         nacre build head.nii.gz --window 20,230 --tolerance 0.02 -o head.html\n"
       "         nacre build head.nii.gz --window 20,230 --budget 300kB -o head.glb");
   auto flags = std::make_shared<BuildFlags>();
+  flags->shells.coarse = kAutoCopies;
   verb->add_option("VOLUME", flags->volume.path, "Volume file, or folder of a DICOM series")
       ->required();
   verb->add_option(
@@ -218,9 +230,9 @@ void add_build_verb(CLI::App& app, int& /*status*/) {
   add_shell_flags(*verb, flags->shells);
   verb->add_option(
           "--coarse", flags->shells.coarse,
-          "Coarser copies of the shells in the file, for a first picture soon: none, the emission "
-          "error they may have (above --tolerance), or auto (1.5 / levels, where a set has "
-          "more than 200,000 triangles); building takes about half as long again")
+          "Coarser copies of simplified shells in the file, for a first picture soon: none, the "
+          "emission error they may have (above --tolerance), or auto (2 / levels, for a .glb of "
+          "more than 200,000 triangles that they make at most 30 % larger)")
       ->capture_default_str()
       ->group("Shells");
   add_volume_reading_flags(*verb, flags->volume);

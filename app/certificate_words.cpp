@@ -27,17 +27,25 @@ std::optional<double> number(const ordered_json& json, const char* key) {
 
 void say_error(const char* what, const ordered_json& error, const std::string& views,
                Reporter& reporter) {
-  const auto rmse = number(error, "rmse");
-  const auto largest = number(error, "max_error");
-  if (!rmse || !largest) return;
-  reporter.say(
-      fmt::format("certified    {} {}, {} over lit pixels, RMSE {:.4g}, largest error "
-                  "{:.4g}{}",
-                  what, decibels(member(error, "psnr_db")), decibels(member(error, "psnr_lit_db")),
-                  *rmse, *largest, views));
+  const auto words = error_words(error);
+  if (words) reporter.say(fmt::format("{} {}{}", what, *words, views));
 }
 
 }  // namespace
+
+std::optional<std::string> error_words(const ordered_json& error) {
+  const auto rmse = number(error, "rmse");
+  const auto largest = number(error, "max_error");
+  if (!rmse || !largest) return std::nullopt;
+  return fmt::format("{}, {} over lit pixels, RMSE {:.4g}, largest error {:.4g}",
+                     decibels(member(error, "psnr_db")), decibels(member(error, "psnr_lit_db")),
+                     *rmse, *largest);
+}
+
+void say_copies_error(const ordered_json& coarse, Reporter& reporter) {
+  say_error("copies       max:", member(coarse, "max"), "", reporter);
+  say_error("copies       sum:", member(coarse, "sum"), "", reporter);
+}
 
 void say_certificate(const ordered_json& certificate, Reporter& reporter) {
   const ordered_json size = member(certificate, "size");
@@ -48,8 +56,8 @@ void say_certificate(const ordered_json& certificate, Reporter& reporter) {
     over = fmt::format(" ({} views of {} x {})", views.size(), size[0].get<long long>(),
                        size[1].get<long long>());
   }
-  say_error("max:", member(certificate, "max"), over, reporter);
-  say_error("sum:", member(certificate, "sum"), "", reporter);
+  say_error("certified    max:", member(certificate, "max"), over, reporter);
+  say_error("certified    sum:", member(certificate, "sum"), "", reporter);
   const ordered_json surfaces = member(certificate, "surfaces");
   const auto rms = number(surfaces, "rms_error");
   const auto largest = number(surfaces, "max_error");

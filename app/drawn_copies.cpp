@@ -3,11 +3,31 @@
 
 #include <fmt/core.h>
 
+#include "app/certificate_words.h"
 #include "core/error.h"
 
 namespace nacre {
 
+namespace {
+
 using nlohmann::ordered_json;
+
+/// Null where the file does not state it.
+ordered_json parsed(const std::string& text) {
+  return text.empty() ? ordered_json() : ordered_json::parse(text);
+}
+
+std::string stated_error(const DrawnCopies& drawn, PictureMode mode) {
+  if (mode != PictureMode::Max && mode != PictureMode::Sum) {
+    return "error of such pictures: not measured";
+  }
+  const bool is_sum = mode == PictureMode::Sum;
+  return fmt::format("error of {}: {}", is_sum ? "sums" : "maxima",
+                     error_words(parsed(is_sum ? drawn.sum_error_json : drawn.max_error_json))
+                         .value_or("not stated by the file"));
+}
+
+}  // namespace
 
 DrawnCopies take_copies(const std::string& path, ShellFileInfo& info) {
   DrawnCopies drawn;
@@ -26,22 +46,23 @@ DrawnCopies take_copies(const std::string& path, ShellFileInfo& info) {
                             path));
   }
   drawn.tolerance = info.coarse->tolerance;
-  drawn.error_json = info.coarse->error_json;
+  drawn.max_error_json = info.coarse->max_error_json;
+  drawn.sum_error_json = info.coarse->sum_error_json;
   return drawn;
 }
 
-void say_copies(const DrawnCopies& drawn, Reporter& reporter) {
+void say_copies(const DrawnCopies& drawn, PictureMode mode, Reporter& reporter) {
   reporter.say(fmt::format(
       "draws    coarse copies of {} shells (emission error {:.4g}), and {} shells that have none; "
-      "error of maxima: {}",
-      drawn.copies, drawn.tolerance, drawn.shells,
-      drawn.error_json.empty() ? "not stated by the file" : drawn.error_json));
+      "{}",
+      drawn.copies, drawn.tolerance, drawn.shells, stated_error(drawn, mode)));
 }
 
-ordered_json copies_json(const DrawnCopies& drawn) {
+ordered_json copies_json(const DrawnCopies& drawn, PictureMode mode) {
   ordered_json json = {
       {"copies", drawn.copies}, {"shells", drawn.shells}, {"tolerance", drawn.tolerance}};
-  json["max"] = drawn.error_json.empty() ? ordered_json() : ordered_json::parse(drawn.error_json);
+  if (mode == PictureMode::Max) json["max"] = parsed(drawn.max_error_json);
+  if (mode == PictureMode::Sum) json["sum"] = parsed(drawn.sum_error_json);
   return json;
 }
 

@@ -181,15 +181,16 @@ ordered_json coarse_json(const ShellFileCoarse& coarse) {
   const CopiesSize size = copies_size(coarse);
   ordered_json json = {
       {"tolerance", coarse.tolerance}, {"triangles", size.triangles}, {"bytes", size.bytes}};
-  if (!coarse.error_json.empty()) json["max"] = ordered_json::parse(coarse.error_json);
+  if (!coarse.max_error_json.empty()) json["max"] = ordered_json::parse(coarse.max_error_json);
+  if (!coarse.sum_error_json.empty()) json["sum"] = ordered_json::parse(coarse.sum_error_json);
   return json;
 }
 
 void say_coarse(const ShellFileCoarse& coarse, Reporter& reporter) {
   const CopiesSize size = copies_size(coarse);
-  reporter.say(fmt::format("copies       {} triangles, {} bytes, emission error {:.4g}{}",
-                           size.triangles, size.bytes, coarse.tolerance,
-                           coarse.error_json.empty() ? "" : ", maxima " + coarse.error_json));
+  reporter.say(fmt::format("copies       {} triangles, {} bytes, emission error {:.4g}",
+                           size.triangles, size.bytes, coarse.tolerance));
+  say_copies_error(coarse_json(coarse), reporter);
 }
 
 ordered_json to_json(const ShellFileInfo& info) {

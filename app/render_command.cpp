@@ -45,7 +45,7 @@ void run_render(const RenderFlags& flags) {
     run_shell_file(flags.exact, flags.draw);
   } else if (flags.draw.coarse) {
     throw Error(ErrorCode::BadArgument,
-                fmt::format("{}: found a volume, expected a shell set for --coarse", input));
+                fmt::format("{}: found no .glb file, expected a shell set for --coarse", input));
   } else if (flags.method == "shells" || (flags.method == "auto" && shows_shells(flags))) {
     run_shells_of_volume(flags.exact, flags.draw, flags.shells);
   } else {

@@ -3,13 +3,11 @@
 #include <fmt/core.h>
 #include <tbb/parallel_for.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <optional>
 #include <utility>
 
 #include "app/build_words.h"
-#include "core/error.h"
 #include "io/draco_decode.h"
 #include "shells/crossings.h"
 #include "shells/prune.h"
@@ -21,9 +19,11 @@ namespace {
 constexpr std::size_t kManyTriangles = 200'000;
 // Of copies, in mean layer widths, and at least so many times the shells' own
 // (docs/decisions/024-coarse-copies.md).
-constexpr double kCoarseLayers = 1.5;
+constexpr double kCoarseLayers = 2.0;
 constexpr double kCoarser = 3.0;
 constexpr double kCoarsest = 0.25;
+// Of the shells' bytes: copies that nobody asked for may take so many.
+constexpr double kMostOfBytes = 0.3;
 
 /// The copies that a build left, compressed side by side.
 std::optional<CoarseShells> compress_copies(std::vector<TriangleMesh>&& copies, const ShellSet& set,
@@ -54,6 +54,12 @@ BuiltSet compress(const BuildOptions& options, Build&& build) {
   return result;
 }
 
+std::size_t byte_count(const std::vector<CompressedShell>& shells) {
+  std::size_t bytes = 0;
+  for (const CompressedShell& shell : shells) bytes += shell.bytes.size();
+  return bytes;
+}
+
 /// 0 where copies would not be much coarser than the shells, or those are not simplified.
 double chosen_tolerance(double own, std::size_t levels) {
   const double chosen =
@@ -61,30 +67,10 @@ double chosen_tolerance(double own, std::size_t levels) {
   return own > 0.0 && chosen >= kCoarser * own ? chosen : 0.0;
 }
 
-/// @throws Error  BadArgument if it is out of range, or shells are not simplified
-double named_tolerance(const std::string& text, double own) {
-  double wanted = 0.0;
-  if (!CLI::detail::lexical_cast(text, wanted) || !(wanted > own && wanted <= 1.0)) {
-    throw Error(ErrorCode::BadArgument,
-                fmt::format("--coarse: found {}, expected auto, none, or an emission above "
-                            "--tolerance ({}) and up to 1",
-                            text, own));
-  }
-  if (!(own > 0.0)) {
-    throw Error(ErrorCode::BadArgument,
-                "--coarse: found shells that are not simplified, expected --tolerance");
-  }
-  return wanted;
-}
-
 void set_copies(BuildOptions& options, const ShellFlags& flags) {
-  const double own = flags.tolerance.value_or(0.0);
-  if (flags.coarse == kNoCopies) return;
-  if (flags.coarse != kAutoCopies) {
-    options.coarse_tolerance = named_tolerance(flags.coarse, own);
-    return;
-  }
-  options.coarse_tolerance = chosen_tolerance(own, options.levels.size());
+  options.coarse_tolerance = named_copies_tolerance(flags);
+  if (flags.coarse != kAutoCopies) return;
+  options.coarse_tolerance = chosen_tolerance(flags.tolerance.value_or(0.0), options.levels.size());
   options.coarse_above_triangles = kManyTriangles;
 }
 
@@ -119,6 +105,16 @@ BuiltSet build_and_compress(const Volume& volume, const EmissionMap& emission,
   return compress(options, [&](const SurfaceSink& sink) {
     return build_shells(volume, emission, options, sink);
   });
+}
+
+void drop_large_copies(CompressedSet& built, Reporter& reporter) {
+  if (!built.coarse) return;
+  const double part = static_cast<double>(byte_count(built.coarse->shells)) /
+                      static_cast<double>(byte_count(built.shells));
+  if (part <= kMostOfBytes) return;
+  reporter.say(
+      fmt::format("copies       left out: they would add {:.0f} % to the file", 100.0 * part));
+  built.coarse.reset();
 }
 
 void tell_build(const ShellSet& set, const BuildReport& report, Reporter& reporter,

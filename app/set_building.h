@@ -26,6 +26,10 @@ BuiltSet build_and_compress(Volume&& volume, const EmissionMap& emission,
 BuiltSet build_and_compress(const Volume& volume, const EmissionMap& emission,
                             const BuildOptions& options);
 
+/// Leaves out copies that would make the file too much larger for what was not asked for, and says
+/// so.
+void drop_large_copies(CompressedSet& built, Reporter& reporter);
+
 /// Says what came of a build, and notes it.
 void tell_build(const ShellSet& set, const BuildReport& report, Reporter& reporter,
                 BuildFigures& figures);

@@ -59,7 +59,7 @@ void check_unchanged(const VolumeFlags& flags, const Volume& volume, const Volum
                           flags.path));
 }
 
-/// The error of the maxima of a set's coarse copies, beside the exact pictures already made.
+/// The error of a set's coarse copies, beside the exact pictures already made.
 ordered_json coarse_error(const CompressedSet& built, const ProgressCallback& callback,
                           Certifier& certifier) {
   // A level without a copy is shown as it is.
@@ -70,9 +70,12 @@ ordered_json coarse_error(const CompressedSet& built, const ProgressCallback& ca
   certifier.restart();
   add_shells(shown, callback, certifier);
   const Certificate measured = certifier.result();
-  ordered_json json = error_json(measured.max);
-  json["size"] = {measured.size.x, measured.size.y};
-  return json;
+  const auto sized = [&](const CertifiedError& error) {
+    ordered_json json = error_json(error);
+    json["size"] = {measured.size.x, measured.size.y};
+    return json;
+  };
+  return {{"max", sized(measured.max)}, {"sum", sized(measured.sum)}};
 }
 
 }  // namespace

@@ -32,6 +32,10 @@ struct ShellFlags : LevelFlags {
 /// --keep-specks and --purpose.
 void add_shell_flags(CLI::App& verb, ShellFlags& flags);
 
+/// The emission error that --coarse names; 0 for auto and none.
+/// @throws Error  BadArgument if it is out of range, or shells are not simplified
+double named_copies_tolerance(const ShellFlags& flags);
+
 /// What building took, in seconds, and how many triangles there were before simplification.
 struct BuildFigures {
   double emission = 0.0;  ///< placing levels
@@ -46,8 +50,9 @@ struct BuildFigures {
   nlohmann::ordered_json left_out = nlohmann::ordered_json::array();  ///< {"what", "why", ...} each
   nlohmann::ordered_json nesting;
   nlohmann::ordered_json placement;
-  nlohmann::ordered_json coarse_error;  ///< of maxima of coarse copies, where it was measured
-  nlohmann::ordered_json budget;        ///< what was tried, where there is one
+  /// Of coarse copies, `max` and `sum`; empty where it was not measured.
+  nlohmann::ordered_json coarse_error = nlohmann::ordered_json::object();
+  nlohmann::ordered_json budget;  ///< what was tried, where there is one
 };
 
 /// Shells of a volume, in memory; the volume is gone afterwards.

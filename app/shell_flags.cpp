@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "app/shell_building.h"
+#include "core/error.h"
 
 namespace nacre {
 namespace {
@@ -22,6 +23,23 @@ CLI::Validator finite_from_zero(double most, const char* expected) {
 }
 
 }  // namespace
+
+double named_copies_tolerance(const ShellFlags& flags) {
+  if (flags.coarse == kAutoCopies || flags.coarse == kNoCopies) return 0.0;
+  const double own = flags.tolerance.value_or(0.0);
+  double named = 0.0;
+  if (!CLI::detail::lexical_cast(flags.coarse, named) || !(named > own && named <= 1.0)) {
+    throw Error(ErrorCode::BadArgument,
+                fmt::format("--coarse: found {}, expected auto, none, or an emission above "
+                            "--tolerance ({}) and up to 1",
+                            flags.coarse, own));
+  }
+  if (!(own > 0.0)) {
+    throw Error(ErrorCode::BadArgument,
+                "--coarse: found shells that are not simplified, expected --tolerance");
+  }
+  return named;
+}
 
 void add_shell_flags(CLI::App& verb, ShellFlags& flags) {
   const std::string group = "Shells";

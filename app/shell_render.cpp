@@ -120,7 +120,9 @@ ordered_json figures_of(const ShellRenderer& renderer, const ExactFlags& flags, 
   json["mode"] = flags.picture.mode;
   json["picture"] = {{"width", image.width}, {"height", image.height}};
   if (result.window) json["display"] = {result.window->lo, result.window->hi};
-  if (views.copies) json["coarse"] = copies_json(*views.copies);
+  if (views.copies) {
+    json["coarse"] = copies_json(*views.copies, picture_mode(flags.picture));
+  }
   json["passes"] = ordered_json::array();
   for (const Pass& pass : plan.passes) json["passes"].push_back(describe(pass));
   json["left_out"] = ordered_json::array();
@@ -152,7 +154,9 @@ void warn_of_limits(const std::vector<Plan>& plans, Reporter& reporter) {
 void draw_views(ShellRenderer& renderer, const ExactFlags& flags, const DrawFlags& draw,
                 const Views& views, const std::vector<Plan>& plans, Timing timing,
                 Reporter& reporter) {
-  if (draw.explain && views.copies) say_copies(*views.copies, reporter);
+  if (draw.explain && views.copies) {
+    say_copies(*views.copies, picture_mode(flags.picture), reporter);
+  }
   if (draw.explain) say_plan(plans.front(), reporter);
   warn_of_limits(plans, reporter);
   timing.frames.resize(plans.size());

@@ -12,6 +12,17 @@ namespace {
 
 using nlohmann::ordered_json;
 
+/// Whether there is such a surface: a row for each shell, but only for the copies that there are.
+bool is_shown(const SurfaceFindings& findings, std::size_t k) {
+  return findings.kind == "shell" || !findings.set.shells[k].surface.triangles.empty();
+}
+
+/// The name of a row.
+std::string row_name(const SurfaceFindings& findings, std::size_t k) {
+  return findings.kind == "shell" ? findings.names[k]
+                                  : fmt::format("{} {}", findings.kind, findings.names[k]);
+}
+
 std::string yes_no(bool yes) { return yes ? "yes" : "NO"; }
 
 std::string gap(const ShellVerdict& verdict) {
@@ -20,16 +31,17 @@ std::string gap(const ShellVerdict& verdict) {
              : "-";
 }
 
-std::string surface_line(const VerifyFindings& findings, std::size_t k) {
+std::string surface_line(const SurfaceFindings& findings, std::size_t k) {
   const ShellVerdict& verdict = findings.surfaces[k];
   const ShellReport& topology = verdict.topology;
   const bool oriented =
       topology.misoriented_edges == 0 && (topology.triangles == 0 || topology.volume_mm3 > 0.0);
   return fmt::format(
       "{:<10.10} {:>9} {:>6} {:>6} {:>8} {:>8} {:>6} {:>8} {:>7} {:>8} {:>8} {:>10}",
-      findings.names[k], topology.triangles, topology.components, yes_no(topology.open_edges == 0),
-      yes_no(oriented), yes_no(topology.is_manifold()), topology.degenerate,
-      findings.set.grid ? std::to_string(verdict.off_grid) : "-", verdict.self_intersections,
+      row_name(findings, k), topology.triangles, topology.components,
+      yes_no(topology.open_edges == 0), yes_no(oriented), yes_no(topology.is_manifold()),
+      topology.degenerate, findings.set.grid ? std::to_string(verdict.off_grid) : "-",
+      verdict.self_intersections,
       verdict.next ? std::to_string(verdict.next->intersections.crossing) : "-",
       verdict.next ? std::to_string(verdict.next->intersections.touching) : "-", gap(verdict));
 }
@@ -38,13 +50,13 @@ std::string bounded(const BoundedDistance& distance) {
   return fmt::format("{:.4f}..{:.4f}", distance.lower_mm, distance.upper_mm);
 }
 
-std::string volume_line(const VerifyFindings& findings, std::size_t k) {
+std::string volume_line(const SurfaceFindings& findings, std::size_t k) {
   const VolumeVerdict& verdict = findings.against_volume[k];
   const SurfaceEmission& emission = verdict.emission;
   const bool empty = findings.set.shells[k].surface.triangles.empty();
   return fmt::format(
       "{:<10.10} {:>8.5f} {:>9} {:>9.5f} {:>9.5f} {:>9.5f} {:>9.5f} {:>16} {:>16} {:>10}",
-      findings.names[k], findings.set.shells[k].emission,
+      row_name(findings, k), findings.set.shells[k].emission,
       empty ? "-" : fmt::format("{:.4f}..{:.4f}", emission.lo, emission.hi), emission.max_error,
       emission.rms_error, emission.error_bound(findings.set.shells[k].emission),
       verdict.extraction_error_bound, bounded(verdict.to_unsimplified),
@@ -59,7 +71,7 @@ ordered_json number(double value) {
   return std::isfinite(value) ? ordered_json(value) : ordered_json();
 }
 
-ordered_json surface_json(const VerifyFindings& findings, std::size_t k) {
+ordered_json surface_json(const SurfaceFindings& findings, std::size_t k) {
   const ShellVerdict& verdict = findings.surfaces[k];
   const ShellReport& topology = verdict.topology;
   ordered_json json;
@@ -89,7 +101,7 @@ ordered_json surface_json(const VerifyFindings& findings, std::size_t k) {
   return json;
 }
 
-ordered_json volume_json(const VerifyFindings& findings, std::size_t k) {
+ordered_json volume_json(const SurfaceFindings& findings, std::size_t k) {
   const VolumeVerdict& verdict = findings.against_volume[k];
   const SurfaceEmission& emission = verdict.emission;
   const double level = findings.set.shells[k].emission;
@@ -109,9 +121,28 @@ ordered_json volume_json(const VerifyFindings& findings, std::size_t k) {
   return json;
 }
 
+ordered_json shells_json(const SurfaceFindings& findings) {
+  ordered_json shells = ordered_json::array();
+  for (std::size_t k = 0; k < findings.surfaces.size(); ++k) {
+    if (!is_shown(findings, k)) continue;
+    ordered_json shell = surface_json(findings, k);
+    if (!findings.against_volume.empty()) shell["volume"] = volume_json(findings, k);
+    shells.push_back(std::move(shell));
+  }
+  return shells;
+}
+
+/// @param line  of one shell
+template <class Line>
+void add_lines(const SurfaceFindings& findings, Line&& line, std::vector<std::string>& lines) {
+  for (std::size_t k = 0; k < findings.surfaces.size(); ++k) {
+    if (is_shown(findings, k)) lines.push_back(line(findings, k));
+  }
+}
+
 }  // namespace
 
-bool crossing_is_impossible(const VerifyFindings& findings, std::size_t shell) {
+bool crossing_is_impossible(const SurfaceFindings& findings, std::size_t shell) {
   const auto& next = findings.surfaces[shell].next;
   if (!next || findings.against_volume.empty()) return false;
   return findings.against_volume[shell].emission.hi <
@@ -124,16 +155,14 @@ std::vector<std::string> verify_table(const VerifyFindings& findings) {
       fmt::format("{:<10} {:>9} {:>6} {:>6} {:>8} {:>8} {:>6} {:>8} {:>7} {:>8} {:>8} {:>10}",
                   "shell", "triangles", "parts", "closed", "oriented", "manifold", "degen.",
                   "off grid", "selfint", "crossing", "touching", "gap mm"));
-  for (std::size_t k = 0; k < findings.surfaces.size(); ++k) {
-    lines.push_back(surface_line(findings, k));
-  }
+  add_lines(findings, surface_line, lines);
+  if (findings.copies) add_lines(*findings.copies, surface_line, lines);
   if (findings.against_volume.empty()) return lines;
   lines.push_back(fmt::format("{:<10} {:>8} {:>9} {:>9} {:>9} {:>9} {:>9} {:>16} {:>16} {:>10}",
                               "shell", "level", "emission of surface", "max error", "RMS", "bound",
                               "anew", "to anew, mm", "from anew, mm", "crossing"));
-  for (std::size_t k = 0; k < findings.against_volume.size(); ++k) {
-    lines.push_back(volume_line(findings, k));
-  }
+  add_lines(findings, volume_line, lines);
+  if (findings.copies) add_lines(*findings.copies, volume_line, lines);
   return lines;
 }
 
@@ -144,11 +173,10 @@ ordered_json verify_json(const VerifyFindings& findings) {
   json["warnings"] = findings.warnings;
   if (findings.set.grid) json["grid_step_mm"] = step_mm(*findings.set.grid);
   json["tolerance"] = findings.set.tolerance;
-  json["shells"] = ordered_json::array();
-  for (std::size_t k = 0; k < findings.surfaces.size(); ++k) {
-    ordered_json shell = surface_json(findings, k);
-    if (!findings.against_volume.empty()) shell["volume"] = volume_json(findings, k);
-    json["shells"].push_back(std::move(shell));
+  json["shells"] = shells_json(findings);
+  if (findings.copies) {
+    json["copies"] = {{"tolerance", findings.copies->set.tolerance},
+                      {"shells", shells_json(*findings.copies)}};
   }
   return json;
 }

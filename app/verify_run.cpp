@@ -19,25 +19,42 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// A shell that cannot be decoded is a broken promise like others: the rest is checked all the
+/// A surface that cannot be decoded is a broken promise like others: the rest is checked all the
 /// same.
+void decode_surface(const VerifyFlags& flags, std::size_t k, bool coarse, Reporter& reporter,
+                    SurfaceFindings& surfaces, std::vector<std::string>& broken) {
+  try {
+    ShellSet one = read_shell_set(flags.file, {.wanted = [k](std::size_t i) { return i == k; },
+                                               .coarse = coarse,
+                                               .progress = reporter.progress()});
+    surfaces.set.shells[k].surface = std::move(one.shells[k].surface);
+  } catch (const Error& error) {
+    broken.emplace_back(error.what());
+  }
+}
+
+void decode_copies(const VerifyFlags& flags, const ShellFileInfo& info, Reporter& reporter,
+                   VerifyFindings& findings) {
+  SurfaceFindings& copies = findings.copies.emplace();
+  copies.kind = "copy";
+  copies.names = findings.names;
+  copies.set = info.set;
+  copies.set.tolerance = info.coarse->tolerance;
+  for (std::size_t k = 0; k < info.levels.size(); ++k) {
+    if (!info.coarse->levels[k]) continue;
+    decode_surface(flags, k, true, reporter, copies, findings.broken);
+  }
+}
+
 void decode_shells(const VerifyFlags& flags, Reporter& reporter, VerifyFindings& findings) {
   const ShellFileInfo info = read_shell_file_info(flags.file);
   findings.set = info.set;
-  if (info.coarse) {
-    findings.warnings.emplace_back("the file's coarse copies were not checked, only its shells");
-  }
   for (std::size_t k = 0; k < info.levels.size(); ++k) {
     findings.names.push_back(fmt::format("{}", k + 1));
     if (info.levels[k].bytes == 0) continue;
-    try {
-      ShellSet one = read_shell_set(flags.file, {.wanted = [k](std::size_t i) { return i == k; },
-                                                 .progress = reporter.progress()});
-      findings.set.shells[k].surface = std::move(one.shells[k].surface);
-    } catch (const Error& error) {
-      findings.broken.emplace_back(error.what());
-    }
+    decode_surface(flags, k, false, reporter, findings, findings.broken);
   }
+  if (info.coarse) decode_copies(flags, info, reporter, findings);
 }
 
 /// Meshes of other writers, which know of no levels and no grid.
@@ -55,10 +72,10 @@ void decode_meshes(const VerifyFlags& flags, Reporter& reporter, VerifyFindings&
   }
 }
 
-void judge_surfaces(VerifyFindings& findings) {
-  for (std::size_t k = 0; k < findings.surfaces.size(); ++k) {
-    for (const std::string& promise : broken_promises(findings.surfaces[k])) {
-      findings.broken.push_back(fmt::format("shell {}: found {}", findings.names[k], promise));
+void judge_surfaces(const SurfaceFindings& surfaces, std::vector<std::string>& broken) {
+  for (std::size_t k = 0; k < surfaces.surfaces.size(); ++k) {
+    for (const std::string& promise : broken_promises(surfaces.surfaces[k])) {
+      broken.push_back(fmt::format("{} {}: found {}", surfaces.kind, surfaces.names[k], promise));
     }
   }
 }
@@ -110,35 +127,55 @@ std::optional<std::string> other_volume(const ShellSet& set, const Volume& volum
   return std::nullopt;
 }
 
+void check_emission(const Volume& volume, Reporter& reporter, SurfaceFindings& surfaces,
+                    std::vector<std::string>& broken) {
+  surfaces.against_volume = verify_against_volume(surfaces.set, volume, reporter.progress());
+  for (std::size_t k = 0; k < surfaces.against_volume.size(); ++k) {
+    const VolumeVerdict& verdict = surfaces.against_volume[k];
+    if (verdict.tolerance_kept) continue;
+    broken.push_back(
+        fmt::format("{} {}: found an emission error of {:.4g} beside what snapping accounts for, "
+                    "expected at most the tolerance of {:.4g} or the {:.4g} of contouring",
+                    surfaces.kind, surfaces.names[k], verdict.emission.max_error_less_snapping,
+                    surfaces.set.tolerance, verdict.extraction_error_bound));
+  }
+}
+
 void check_volume(const VerifyFlags& flags, Reporter& reporter, VerifyFindings& findings) {
   const Volume volume = volume_for(flags, reporter);
   if (const auto objection = other_volume(findings.set, volume)) {
     findings.broken.push_back(*objection);
     return;  // figures against another volume would say nothing
   }
-  findings.against_volume = verify_against_volume(findings.set, volume, reporter.progress());
-  for (std::size_t k = 0; k < findings.against_volume.size(); ++k) {
-    const VolumeVerdict& verdict = findings.against_volume[k];
-    if (verdict.tolerance_kept) continue;
-    findings.broken.push_back(fmt::format(
-        "shell {}: found an emission error of {:.4g} beside what snapping accounts for, "
-        "expected at most the tolerance of {:.4g} or the {:.4g} of contouring",
-        findings.names[k], verdict.emission.max_error_less_snapping, findings.set.tolerance,
-        verdict.extraction_error_bound));
-  }
+  check_emission(volume, reporter, findings, findings.broken);
+  if (findings.copies) check_emission(volume, reporter, *findings.copies, findings.broken);
+}
+
+std::size_t triangle_count(const SurfaceFindings& surfaces) {
+  std::size_t triangles = 0;
+  for (const ShellVerdict& verdict : surfaces.surfaces) triangles += verdict.topology.triangles;
+  return triangles;
 }
 
 void say(const VerifyFindings& findings, double seconds, Reporter& reporter) {
   for (const std::string& line : verify_table(findings)) reporter.say(line);
   for (const std::string& warning : findings.warnings) reporter.warn(warning);
   for (const std::string& promise : findings.broken) reporter.warn("broken: " + promise);
-  std::size_t triangles = 0;
-  for (const ShellVerdict& verdict : findings.surfaces) triangles += verdict.topology.triangles;
-  reporter.say(fmt::format(
-      "{} surfaces, {} triangles: {} ({:.1f} s)", findings.surfaces.size(), triangles,
-      findings.broken.empty() ? "all promises kept"
-                              : fmt::format("{} promises broken", findings.broken.size()),
-      seconds));
+  std::string copies;
+  if (findings.copies) {
+    const auto& shells = findings.copies->set.shells;
+    copies = fmt::format(
+        ", {} coarse copies, {} triangles",
+        std::count_if(shells.begin(), shells.end(),
+                      [](const Shell& shell) { return !shell.surface.triangles.empty(); }),
+        triangle_count(*findings.copies));
+  }
+  reporter.say(fmt::format("{} surfaces, {} triangles{}: {} ({:.1f} s)", findings.surfaces.size(),
+                           triangle_count(findings), copies,
+                           findings.broken.empty()
+                               ? "all promises kept"
+                               : fmt::format("{} promises broken", findings.broken.size()),
+                           seconds));
 }
 
 }  // namespace
@@ -164,7 +201,12 @@ int run_verify(const VerifyFlags& flags) {
   }
   findings.surfaces =
       verify_surfaces(findings.set, {.neighbours = is_set, .progress = reporter.progress()});
-  judge_surfaces(findings);
+  judge_surfaces(findings, findings.broken);
+  if (findings.copies) {
+    findings.copies->surfaces = verify_surfaces(
+        findings.copies->set, {.neighbours = false, .progress = reporter.progress()});
+    judge_surfaces(*findings.copies, findings.broken);
+  }
   if (is_set) warn_of_neighbours(findings);
   if (!flags.volume.path.empty()) check_volume(flags, reporter, findings);
   const double seconds = watch.lap();

@@ -111,7 +111,11 @@ Json levels_json(const ShellSet& set, const StoredSet& stored) {
 
 Json coarse_json(const StoredCoarse& coarse) {
   Json json = {{"tolerance", coarse.tolerance}};
-  if (!coarse.error_json.empty()) json["max"] = parsed_json(coarse.error_json, "coarse copies");
+  const auto state = [&](const char* key, const std::string& error) {
+    if (!error.empty()) json[key] = parsed_json(error, "coarse copies");
+  };
+  state("max", coarse.max_error_json);
+  state("sum", coarse.sum_error_json);
   return json;
 }
 

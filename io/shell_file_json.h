@@ -26,7 +26,8 @@ struct StoredShell {
 struct StoredCoarse {
   std::vector<std::optional<StoredShell>> shells;  ///< one a level; none: there are no copies
   double tolerance = 0.0;
-  std::string error_json = {};
+  std::string max_error_json = {};
+  std::string sum_error_json = {};
 };
 
 /// What the binary chunk holds.

@@ -28,8 +28,10 @@ struct CompressedShell {
 struct CoarseShells {
   double tolerance = 0.0;  ///< emission error that their simplification was allowed
   std::vector<CompressedShell> shells = {};  ///< one a level; without bytes where there is no copy
-  /// Any JSON value that states the error of their pictures, written as `coarse.max`; empty: none.
-  std::string error_json = {};
+  /// Any JSON values that state the error of their maxima and sums, written as `coarse.max` and
+  /// `coarse.sum`; empty: none.
+  std::string max_error_json = {};
+  std::string sum_error_json = {};
 };
 
 struct ShellWriteOptions {

@@ -15,6 +15,7 @@
 #include "core/error.h"
 #include "core/volume_geometry.h"
 #include "extract/marching_cubes.h"
+#include "shells/coarsen.h"
 #include "shells/level_field.h"
 #include "shells/prune.h"
 #include "shells/quantization.h"
@@ -184,7 +185,7 @@ void simplify_shells(const Volume& volume, const EmissionMap& emission, const Bu
   });
 }
 
-/// Copies of simplified shells, simplified further; this takes some two thirds of the time that the
+/// Coarser copies of simplified shells, on the grid already: a seventh of the time that the
 /// shells' own simplification takes (docs/decisions/024-coarse-copies.md).
 std::vector<TriangleMesh> coarser_copies(const Volume& volume, const EmissionMap& emission,
                                          const BuildOptions& options,
@@ -193,14 +194,15 @@ std::vector<TriangleMesh> coarser_copies(const Volume& volume, const EmissionMap
   std::vector<TriangleMesh> copies(set.shells.size());
   const TrilinearField field(volume);
   const SimplifyOptions common = bounds_of(field, volume, set);
+  const CoarsenOptions bounds{.error_tolerance = options.coarse_tolerance,
+                              .samples_from_mm = common.samples_from_mm,
+                              .spacing_mm = common.spacing_mm};
   const std::size_t memory = working_memory(volume);
   for_each_shell(triangles, memory, options.progress, "coarsen", [&](std::size_t k) {
     const Shell& shell = set.shells[k];
     if (shell.surface.triangles.empty()) return;
-    SimplifyOptions bounds = common;
-    bounds.error_tolerance = options.coarse_tolerance;
-    bounds.field = LevelField(field, emission, shell.emission);
-    copies[k] = snap(simplify(shell.surface, bounds), *set.grid).mesh;
+    const LevelField off_level(field, emission, shell.emission);
+    copies[k] = snap(coarsen(shell.surface, off_level, bounds), *set.grid).mesh;
   });
   return copies;
 }

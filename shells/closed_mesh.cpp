@@ -190,4 +190,31 @@ void ClosedMesh::kill_triangle(std::size_t triangle) {
   for (std::size_t i = 0; i < 3; ++i) vertex_[3 * triangle + i] = kNone;
 }
 
+std::vector<glm::dvec3> positions_of(const ClosedMesh& mesh, const TriangleMesh& surface) {
+  std::vector<glm::dvec3> positions(mesh.vertex_count());
+  for (std::uint32_t v = 0; v < positions.size(); ++v) {
+    positions[v] = glm::dvec3(surface.positions[mesh.source(v)]);
+  }
+  return positions;
+}
+
+TriangleMesh live_surface(const ClosedMesh& mesh, std::span<const glm::dvec3> positions) {
+  TriangleMesh surface;
+  std::vector<std::uint32_t> number(positions.size());
+  for (std::uint32_t v = 0; v < positions.size(); ++v) {
+    if (mesh.outgoing(v) == ClosedMesh::kNone) continue;
+    number[v] = static_cast<std::uint32_t>(surface.positions.size());
+    surface.positions.emplace_back(positions[v]);
+  }
+  std::size_t alive = 0;
+  for (std::size_t face = 0; face < mesh.triangle_count(); ++face) alive += mesh.is_alive(face);
+  surface.triangles.reserve(alive);
+  for (std::size_t face = 0; face < mesh.triangle_count(); ++face) {
+    if (!mesh.is_alive(face)) continue;
+    const glm::uvec3 t = mesh.triangle(face);
+    surface.triangles.emplace_back(number[t.x], number[t.y], number[t.z]);
+  }
+  return surface;
+}
+
 }  // namespace nacre

@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "core/triangle_mesh.h"
+
 namespace nacre {
 
 /// The connectivity of a closed, oriented, manifold triangle mesh, edited by collapses and flips
@@ -98,5 +100,11 @@ class ClosedMesh {
   std::vector<std::uint32_t> outgoing_;  ///< of each vertex
   std::vector<std::uint32_t> source_;    ///< of each vertex
 };
+
+/// Where the vertices of a mesh made from a surface lie.
+std::vector<glm::dvec3> positions_of(const ClosedMesh& mesh, const TriangleMesh& surface);
+
+/// What is left of a mesh as a surface; vertices and triangles keep their order.
+TriangleMesh live_surface(const ClosedMesh& mesh, std::span<const glm::dvec3> positions);
 
 }  // namespace nacre

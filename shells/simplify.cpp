@@ -11,17 +11,14 @@
 
 #include "shells/closed_mesh.h"
 #include "shells/distance_budget.h"
+#include "shells/field_quadrics.h"
 #include "shells/grid_fit.h"
-#include "shells/quadric.h"
 #include "shells/star.h"
 #include "shells/star_fit.h"
 
 namespace nacre {
 namespace {
 
-constexpr double kDamping = 1e-3;  // of a quadric, as a part of its mean eigenvalue
-// Of the quadric's error: shorter edges go first where it says nothing.
-constexpr double kLengthCost = 1e-4;
 // Root mean square of the quadric's error, as a part of the tolerance. What it refuses would mostly
 // fail at the samples, and what would not costs more of the picture than it saves.
 constexpr double kMeanPart = 0.7;
@@ -44,13 +41,6 @@ struct Later {
   }
 };
 
-/// Where an edge's quadric is least, and what it costs to go there.
-struct Target {
-  glm::dvec3 point;
-  double cost;  ///< squared error times area
-  double area;  ///< that the quadric stands for
-};
-
 class EdgeCollapser {
  public:
   EdgeCollapser(const TriangleMesh& surface, const SimplifyOptions& options);
@@ -58,13 +48,12 @@ class EdgeCollapser {
   /// Collapses edges, cheapest first, until none may go.
   void run();
   void settle_on_grid();
-  TriangleMesh take() const;
+  TriangleMesh take() const { return live_surface(mesh_, positions_); }
 
  private:
-  void add_plane(std::size_t face);
   void measure();
-  Target target_of(std::uint32_t h) const;
-  bool is_hopeless(std::uint32_t h, const Target& target) const;
+  CollapseTarget target_of(std::uint32_t h) const { return quadrics_.target(mesh_, positions_, h); }
+  bool is_hopeless(std::uint32_t h, const CollapseTarget& target) const;
   void push(std::uint32_t h);
   bool is_current(const Candidate& candidate) const;
   std::uint32_t stamp_of(std::uint32_t h) const {
@@ -79,7 +68,7 @@ class EdgeCollapser {
   const SimplifyOptions& options_;
   ClosedMesh mesh_;
   std::vector<glm::dvec3> positions_;
-  std::vector<Quadric> quadrics_;
+  FieldQuadrics quadrics_;
   bool is_bounded_;                     ///< by the field's error
   std::vector<float> face_error_;       ///< sampled, of each triangle as it is
   std::vector<float> vertex_error_;     ///< most that a triangle at each vertex has had
@@ -99,8 +88,8 @@ class EdgeCollapser {
 EdgeCollapser::EdgeCollapser(const TriangleMesh& surface, const SimplifyOptions& options)
     : options_(options),
       mesh_(surface.triangles, surface.positions.size()),
-      positions_(mesh_.vertex_count()),
-      quadrics_(mesh_.vertex_count()),
+      positions_(positions_of(mesh_, surface)),
+      quadrics_(mesh_, positions_, options.field, options.spacing_mm),
       // A target alone has no bound.
       is_bounded_(options.field &&
                   (options.error_tolerance > 0.0 || options.target_triangles == 0)),
@@ -110,29 +99,7 @@ EdgeCollapser::EdgeCollapser(const TriangleMesh& surface, const SimplifyOptions&
       distance_(options.tolerance_mm, mesh_.triangle_count()),
       triangles_(mesh_.triangle_count()),
       fit_(options.field, options.samples_from_mm) {
-  for (std::uint32_t v = 0; v < positions_.size(); ++v) {
-    positions_[v] = glm::dvec3(surface.positions[mesh_.source(v)]);
-  }
-  for (std::size_t face = 0; face < mesh_.triangle_count(); ++face) add_plane(face);
   if (is_bounded_) measure();
-}
-
-/// Adds a triangle's plane to its corners' quadrics: the field's tangent plane at its centre, or
-/// its own plane where the field has none.
-void EdgeCollapser::add_plane(std::size_t face) {
-  const glm::uvec3 t = mesh_.triangle(face);
-  const glm::dvec3& a = positions_[t.x];
-  const glm::dvec3 twice_area = glm::cross(positions_[t.y] - a, positions_[t.z] - a);
-  const double area = 0.5 * glm::length(twice_area);
-  const glm::dvec3 center = (a + positions_[t.y] + positions_[t.z]) / 3.0;
-  FieldSample at{0.0, glm::dvec3(0.0)};
-  if (options_.field) at = options_.field(center);
-  if (at.gradient == glm::dvec3(0.0) && area > 0.0) {
-    at = {0.0, twice_area / (2.0 * area * options_.spacing_mm)};
-  }
-  Quadric plane;
-  plane.add(at.gradient, at.error - glm::dot(at.gradient, center), area / 3.0);
-  for (const std::uint32_t v : {t.x, t.y, t.z}) quadrics_[v] += plane;
 }
 
 /// Samples the error of every triangle: its inside, its sides and its corners.
@@ -163,25 +130,8 @@ void EdgeCollapser::measure() {
   }
 }
 
-Target EdgeCollapser::target_of(std::uint32_t h) const {
-  const std::uint32_t u = mesh_.from(h);
-  const std::uint32_t v = mesh_.to(h);
-  Quadric quadric = quadrics_[u];
-  quadric += quadrics_[v];
-  const glm::dvec3 middle = 0.5 * (positions_[u] + positions_[v]);
-  const glm::dvec3 edge = positions_[v] - positions_[u];
-  const double squared_length = glm::dot(edge, edge);
-  glm::dvec3 step = quadric.step_to_least(middle, kDamping);
-  const double squared_step = glm::dot(step, step);
-  if (squared_step > squared_length) step *= std::sqrt(squared_length / squared_step);
-  const double trace = quadric.diagonal.x + quadric.diagonal.y + quadric.diagonal.z;
-  // Rounding makes small errors negative.
-  const double error = std::max(quadric(middle + step), 0.0);
-  return {middle + step, error + kLengthCost * squared_length * trace, quadric.weight};
-}
-
 /// Whether the quadric's error is too large to be worth sampling the field.
-bool EdgeCollapser::is_hopeless(std::uint32_t h, const Target& target) const {
+bool EdgeCollapser::is_hopeless(std::uint32_t h, const CollapseTarget& target) const {
   if (!is_bounded_) return false;
   const double most =
       kMeanPart * std::max(vertex_error_[mesh_.from(h)], vertex_error_[mesh_.to(h)]);
@@ -189,7 +139,7 @@ bool EdgeCollapser::is_hopeless(std::uint32_t h, const Target& target) const {
 }
 
 void EdgeCollapser::push(std::uint32_t h) {
-  const Target target = target_of(h);
+  const CollapseTarget target = target_of(h);
   if (is_hopeless(h, target)) return;
   queue_.push({static_cast<float>(target.cost), std::min(h, mesh_.opposite(h)), stamp_of(h)});
 }
@@ -244,7 +194,7 @@ void EdgeCollapser::try_collapse(std::uint32_t h) {
   if (!mesh_.can_collapse(h)) return;
   star_of_collapse(mesh_, positions_, h, star_);
   find_allowed();
-  const Target target = target_of(h);
+  const CollapseTarget target = target_of(h);
   // The ends come last: a cap's rim has to stay in its plane.
   for (const glm::dvec3& start :
        {target.point, positions_[mesh_.from(h)], positions_[mesh_.to(h)]}) {
@@ -268,7 +218,7 @@ void EdgeCollapser::commit(std::uint32_t h, const glm::dvec3& p) {
   mesh_.collapse(h);
   triangles_ -= 2;
   positions_[v] = p;
-  quadrics_[v] += quadrics_[u];
+  quadrics_.merge(u, v);
   changed_[v] = ++clock_;
   mesh_.for_each_outgoing(v, [&](std::uint32_t spoke) { push(spoke); });
 }
@@ -286,23 +236,6 @@ void EdgeCollapser::run() {
 
 void EdgeCollapser::settle_on_grid() {
   fit_to_grid(mesh_, options_.field, options_.samples_from_mm, *options_.grid, positions_);
-}
-
-TriangleMesh EdgeCollapser::take() const {
-  TriangleMesh surface;
-  std::vector<std::uint32_t> number(positions_.size());
-  for (std::uint32_t v = 0; v < positions_.size(); ++v) {
-    if (mesh_.outgoing(v) == ClosedMesh::kNone) continue;
-    number[v] = static_cast<std::uint32_t>(surface.positions.size());
-    surface.positions.emplace_back(positions_[v]);
-  }
-  surface.triangles.reserve(triangles_);
-  for (std::size_t face = 0; face < mesh_.triangle_count(); ++face) {
-    if (!mesh_.is_alive(face)) continue;
-    const glm::uvec3 t = mesh_.triangle(face);
-    surface.triangles.emplace_back(number[t.x], number[t.y], number[t.z]);
-  }
-  return surface;
 }
 
 }  // namespace

@@ -143,6 +143,23 @@ glm::dvec3 StarFit::step() const {
   return solve_symmetric(diagonal_ + kDamping * mean, beside_, right_);
 }
 
+bool stays_within(const Star& star, const glm::dvec3& p, const SurfaceField& field,
+                  const glm::dmat3& samples_from_mm, double allowed) {
+  const auto is_within = [&](const glm::dvec3& q) { return std::abs(field(q).error) <= allowed; };
+  if (!is_within(p)) return false;
+  for (std::size_t i = 0; i < star.ring.size(); ++i) {
+    const glm::dvec3& a = star.ring[i];
+    const int n = parts_of(squared(samples_from_mm * (a - p)));
+    for (int part = 1; part < n; ++part) {
+      const double w = static_cast<double>(part) / n;
+      if (!is_within(w * p + (1.0 - w) * a)) return false;
+    }
+    const auto inside = [&](const glm::dvec3& q, double) { return is_within(q); };
+    if (!visit_inside(p, a, star.after(i), samples_from_mm, inside)) return false;
+  }
+  return true;
+}
+
 double inner_error(const SurfaceField& field, const glm::dmat3& samples_from_mm,
                    const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
   double worst = 0.0;

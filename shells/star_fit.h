@@ -70,6 +70,10 @@ class StarFit {
   double squared_weights_ = 0.0;
 };
 
+/// Whether no |error| of a star with its apex at p is more than `allowed`, sampled as a fit's is.
+bool stays_within(const Star& star, const glm::dvec3& p, const SurfaceField& field,
+                  const glm::dmat3& samples_from_mm, double allowed);
+
 /// Largest |error| strictly within a triangle, sampled like a star's.
 double inner_error(const SurfaceField& field, const glm::dmat3& samples_from_mm,
                    const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c);
