@@ -23,6 +23,19 @@ int parts_of(double squared_samples) {
   return static_cast<int>(std::min(std::ceil(std::sqrt(squared_samples)), double{kMostParts}));
 }
 
+/// Calls `visit(point, weight of p)` with the points strictly between the ends of a spoke, as far
+/// apart as samples are, until it says false.
+template <class Visit>
+bool visit_spoke(const glm::dvec3& p, const glm::dvec3& end, const glm::dmat3& samples_from_mm,
+                 Visit&& visit) {
+  const int n = parts_of(squared(samples_from_mm * (end - p)));
+  for (int i = 1; i < n; ++i) {
+    const double w = static_cast<double>(i) / n;
+    if (!visit(w * p + (1.0 - w) * end, w)) return false;
+  }
+  return true;
+}
+
 /// Calls `visit(point, weight of p)` with the points strictly within a triangle, as far apart as
 /// samples are; its centre at least.
 template <class Visit>
@@ -61,12 +74,9 @@ bool StarFit::add(const glm::dvec3& p, double weight, double allowed, double& wo
 
 bool StarFit::sample_spoke(const glm::dvec3& p, const glm::dvec3& end, double allowed,
                            double& worst) {
-  const int n = parts_of(squared(samples_from_mm_ * (end - p)));
-  for (int i = 1; i < n; ++i) {
-    const double w = static_cast<double>(i) / n;
-    if (!add(w * p + (1.0 - w) * end, w, allowed, worst)) return false;
-  }
-  return true;
+  return visit_spoke(p, end, samples_from_mm_, [&](const glm::dvec3& q, double weight) {
+    return add(q, weight, allowed, worst);
+  });
 }
 
 bool StarFit::sample_triangle(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b,
@@ -145,17 +155,16 @@ glm::dvec3 StarFit::step() const {
 
 bool stays_within(const Star& star, const glm::dvec3& p, const SurfaceField& field,
                   const glm::dmat3& samples_from_mm, double allowed) {
-  const auto is_within = [&](const glm::dvec3& q) { return std::abs(field(q).error) <= allowed; };
-  if (!is_within(p)) return false;
+  const auto is_within = [&](const glm::dvec3& q, double) {
+    return std::abs(field(q).error) <= allowed;
+  };
+  if (!is_within(p, 1.0)) return false;
   for (std::size_t i = 0; i < star.ring.size(); ++i) {
     const glm::dvec3& a = star.ring[i];
-    const int n = parts_of(squared(samples_from_mm * (a - p)));
-    for (int part = 1; part < n; ++part) {
-      const double w = static_cast<double>(part) / n;
-      if (!is_within(w * p + (1.0 - w) * a)) return false;
+    if (!visit_spoke(p, a, samples_from_mm, is_within) ||
+        !visit_inside(p, a, star.after(i), samples_from_mm, is_within)) {
+      return false;
     }
-    const auto inside = [&](const glm::dvec3& q, double) { return is_within(q); };
-    if (!visit_inside(p, a, star.after(i), samples_from_mm, inside)) return false;
   }
   return true;
 }

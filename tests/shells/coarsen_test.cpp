@@ -10,11 +10,14 @@
 #include "shells/simplify.h"
 #include "tests/support/analytic_surfaces.h"
 #include "tests/support/dense_error.h"
+#include "tests/support/sound_surface.h"
+#include "tests/support/sphere_field.h"
 
 namespace nacre {
 namespace {
 
 using testing::cube_surface;
+using testing::expect_sound;
 using testing::sphere_surface;
 using testing::torus_surface;
 
@@ -23,11 +26,7 @@ constexpr int kDense = 7;  // parts of a triangle's side
 
 double sphere_error(const glm::dvec3& p) { return std::abs(glm::length(p) - double{kRadius}); }
 
-/// Distance from the sphere, signed.
-FieldSample sphere_field(const glm::dvec3& p) {
-  const double r = glm::length(p);
-  return {r - double{kRadius}, r > 0.0 ? p / r : glm::dvec3(0.0)};
-}
+constexpr testing::SphereField sphere_field{double{kRadius}};
 
 /// Distance from the torus of these radii, signed.
 FieldSample torus_field(const glm::dvec3& p) {
@@ -35,12 +34,6 @@ FieldSample torus_field(const glm::dvec3& p) {
   const glm::dvec3 center = 20.0 / ring * glm::dvec3(p.x, p.y, 0.0);
   const double r = glm::distance(p, center);
   return {r - 6.0, (p - center) / r};
-}
-
-void expect_sound(const TriangleMesh& mesh, std::int64_t euler) {
-  const ShellReport report = check_shell(mesh);
-  EXPECT_TRUE(report.is_sound());
-  EXPECT_EQ(report.euler, euler);
 }
 
 TEST(Coarsen, KeepsTheErrorBound) {

@@ -8,16 +8,14 @@
 #include "shells/shell_checks.h"
 #include "tests/support/analytic_surfaces.h"
 #include "tests/support/dense_error.h"
+#include "tests/support/sphere_field.h"
 
 namespace nacre {
 namespace {
 
 constexpr double kRadius = 10.0;
 
-FieldSample sphere_field(const glm::dvec3& p) {
-  const double r = glm::length(p);
-  return {r - kRadius, r > 0.0 ? p / r : glm::dvec3(0.0)};
-}
+constexpr testing::SphereField sphere_field{kRadius};
 
 double largest_error(const TriangleMesh& mesh) {
   return testing::largest_error(

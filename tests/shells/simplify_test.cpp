@@ -9,11 +9,14 @@
 #include "shells/shell_checks.h"
 #include "tests/support/analytic_surfaces.h"
 #include "tests/support/dense_error.h"
+#include "tests/support/sound_surface.h"
+#include "tests/support/sphere_field.h"
 
 namespace nacre {
 namespace {
 
 using testing::cube_surface;
+using testing::expect_sound;
 using testing::sphere_surface;
 using testing::torus_surface;
 using testing::turned_inside_out;
@@ -23,20 +26,10 @@ constexpr int kDense = 7;  // parts of a triangle's side
 
 double sphere_error(const glm::dvec3& p) { return std::abs(glm::length(p) - double{kRadius}); }
 
-/// Distance from the sphere, signed.
-FieldSample sphere_field(const glm::dvec3& p) {
-  const double r = glm::length(p);
-  return {r - double{kRadius}, r > 0.0 ? p / r : glm::dvec3(0.0)};
-}
+constexpr testing::SphereField sphere_field{double{kRadius}};
 
 double largest_error(const TriangleMesh& mesh, const testing::PointError& error) {
   return testing::largest_error(mesh, error, kDense);
-}
-
-void expect_sound(const TriangleMesh& mesh, std::int64_t euler) {
-  const ShellReport report = check_shell(mesh);
-  EXPECT_TRUE(report.is_sound());
-  EXPECT_EQ(report.euler, euler);
 }
 
 TEST(Simplify, WithoutBoundsNothingChanges) {

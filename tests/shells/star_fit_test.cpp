@@ -11,6 +11,7 @@
 #include "shells/grid_fit.h"
 #include "tests/support/analytic_surfaces.h"
 #include "tests/support/dense_error.h"
+#include "tests/support/sphere_field.h"
 
 namespace nacre {
 namespace {
@@ -18,10 +19,7 @@ namespace {
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 constexpr double kRadius = 10.0;
 
-FieldSample sphere_field(const glm::dvec3& p) {
-  const double r = glm::length(p);
-  return {r - kRadius, r > 0.0 ? p / r : glm::dvec3(0.0)};
-}
+constexpr testing::SphereField sphere_field{kRadius};
 
 struct Sphere {
   TriangleMesh surface = testing::sphere_surface(static_cast<float>(kRadius), 6);
