@@ -100,9 +100,8 @@ ordered_json certificate_of(const BuildFlags& flags, const CompressedSet& built,
   return certificate;
 }
 
-/// @throws Error  BadArgument for copies that cannot be; a budget is for what a scene needs at
-/// most,
-///                and holds for the file: it has no room for them
+/// A budget is for what a scene needs at most, and holds for the file: it has no room for copies.
+/// @throws Error  BadArgument for copies that cannot be, and for a budget with any
 void check_copies(const BuildFlags& flags) {
   named_copies_tolerance(flags.shells);
   const std::string& coarse = flags.shells.coarse;
@@ -115,7 +114,7 @@ void check_certificate(const std::string& certificate) {
   if (certificate != kNoCertificate) parse_size("--certificate", certificate);
 }
 
-/// The flags of shells; a page shows no copies, and holds none that nobody asked for.
+/// The flags of shells; a page, made to be sent, holds no copies that nobody asked for.
 ShellFlags shell_flags(const BuildFlags& flags) {
   ShellFlags shells = flags.shells;
   if (shells.coarse == kAutoCopies && is_page_name(flags.output)) shells.coarse = kNoCopies;

@@ -18,30 +18,12 @@ using nlohmann::json;
 /// A set of a small phantom with coarse copies.
 class CoarseCopies : public testing::CommandTest {
  protected:
-  static void SetUpTestSuite() {
-    const testing::ScratchFolder folder;
-    const auto run = [&](const std::string& arguments) {
-      const auto result = testing::run_command(NACRE_BINARY, arguments, folder.path());
-      ASSERT_EQ(result.status, 0) << arguments << "\n" << result.errors;
-    };
-    run("phantom torus --size 20,18,16 -o t.nii");
-    run("build t.nii --levels 4 --tolerance 0.005 --certificate 64x64 --coarse 0.125 -o set.glb");
-    volume() = testing::read_bytes(folder.path() / "t.nii");
-    set() = testing::read_bytes(folder.path() / "set.glb");
-  }
-
   void SetUp() override {
-    folder_.write("t.nii", volume());
-    folder_.write("set.glb", set());
-  }
-
-  static std::string& volume() {
-    static std::string bytes;
-    return bytes;
-  }
-  static std::string& set() {
-    static std::string bytes;
-    return bytes;
+    ASSERT_EQ(nacre("phantom torus --size 20,18,16 -o t.nii").status, 0);
+    ASSERT_EQ(nacre("build t.nii --levels 4 --tolerance 0.005 --certificate 64x64 --coarse 0.125 "
+                    "-o set.glb")
+                  .status,
+              0);
   }
 
   json figures(const std::string& arguments, int status = 0) const {
@@ -139,7 +121,8 @@ TEST_F(CoarseCopies, AreVerified) {
 }
 
 TEST_F(CoarseCopies, VerifyFindsWhatIsWrongWithThem) {
-  std::string file = set();
+  const std::string set = testing::read_bytes(folder_.path() / "set.glb");
+  std::string file = set;
   const std::string true_text = R"("coarse":{"tolerance":0.125)";
   const std::size_t at = file.find(true_text);
   ASSERT_NE(at, std::string::npos);
@@ -148,7 +131,7 @@ TEST_F(CoarseCopies, VerifyFindsWhatIsWrongWithThem) {
   EXPECT_NE(found.at("broken").dump().find("copy 1: found an emission error of"), std::string::npos)
       << found.at("broken");
 
-  file = set();
+  file = set;
   file[file.size() - 40] ^= 1;  // the last copy's bytes end the file
   folder_.write("set.glb", file);
   found = figures("verify set.glb", 1);
