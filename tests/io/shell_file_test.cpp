@@ -198,7 +198,7 @@ TEST(ShellFile, NoNodeShowsACoarseCopy) {
 
 TEST(ShellFile, RefusesCopiesOfWhatIsNotThere) {
   ShellWriteOptions options;
-  options.coarse = CoarseShells{};
+  options.coarse.emplace();
   EXPECT_THROW(encode_shell_set(small_shell_set(), options), Error);
   const ShellSet set = small_shell_set();
   options.coarse->shells.resize(set.shells.size());
