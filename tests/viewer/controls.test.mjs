@@ -51,6 +51,12 @@ async function setNumber(name, value) {
   await field.press("Enter");
 }
 
+/** What takes the pointer in the middle of an element. */
+const beneath = (selector) => page.locator(selector).evaluate((shown) => {
+  const { x, y, width, height } = shown.getBoundingClientRect();
+  return document.elementFromPoint(x + width / 2, y + height / 2).id;
+});
+
 const canvas = async () => page.locator("#picture").boundingBox();
 
 async function drag(from, to, options = {}) {
@@ -158,6 +164,7 @@ test("a picture is saved at the size chosen, by button and by key", async () => 
   await page.fill("#save-width", "9000");
   await page.click("#save");
   assert.match(await page.textContent("#message"), /found 9000 x 60, expected 1 to 8192/);
+  assert.equal(await beneath("#message"), "picture", "the line is not in the hand's way");
 });
 
 test("perspective, distance, roll and zoom", async () => {
