@@ -2,9 +2,18 @@
 
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <functional>
 #include <glm/geometric.hpp>
+#include <initializer_list>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/emission.h"
@@ -12,39 +21,53 @@
 #include "core/volume.h"
 #include "datasets/phantom.h"
 #include "extract/levels.h"
+#include "io/volume_reader.h"
 #ifdef NACRE_HAVE_VTK
 #include "bench/flying_edges.h"
 #endif
 
-// Contours of phantoms, and beside them VTK's Flying Edges on the same samples and levels, where
-// VTK is installed.
+// Contours of phantoms and scans, and beside them VTK's Flying Edges on the same samples and
+// levels, where VTK is installed. Scans are read from the folder that NACRE_TEST_DATA names, and
+// left out where it is not set.
 
 namespace nacre {
 namespace {
 
-/// A phantom and contour values, as the arguments `phantom` and `levels` of a bench name them.
 struct Case {
   Volume volume;
   std::vector<double> values;
 };
 
-constexpr std::array<const char*, 3> kPhantoms{"angiogram", "spheres", "torus"};
-
-Case make_case(const benchmark::State& state) {
-  const char* name = kPhantoms[static_cast<std::size_t>(state.range(0))];
-  double lo = 0.0;
-  double hi = 1.0;
-  for (const PhantomInfo& info : phantom_list()) {
-    if (info.name != name) continue;
-    lo = info.window_lo;
-    hi = info.window_hi;
-  }
-  Case made{.volume = make_phantom(name), .values = {}};
+Case make_case(Volume volume, double lo, double hi, const benchmark::State& state) {
+  Case made{.volume = std::move(volume), .values = {}};
   const EmissionMap window = EmissionMap::window(lo, hi);
-  for (const Level& level : uniform_levels(static_cast<std::size_t>(state.range(1)))) {
+  for (const Level& level : uniform_levels(static_cast<std::size_t>(state.range(0)))) {
     made.values.push_back(window.value_at(level.emission));
   }
   return made;
+}
+
+Case phantom_case(const std::string& name, const benchmark::State& state) {
+  const std::span<const PhantomInfo> all = phantom_list();
+  const auto info =
+      std::ranges::find_if(all, [&name](const PhantomInfo& one) { return one.name == name; });
+  return make_case(make_phantom(name), info->window_lo, info->window_hi, state);
+}
+
+/// A file of the test data and its window.
+struct Scan {
+  const char* name;
+  const char* file;
+  double lo;
+  double hi;
+};
+
+constexpr std::array kScans{Scan{"chris_MRA", "chris_MRA.nii.gz", 20.0, 230.0},
+                            Scan{"aneurism", "aneurism_256_uint8.nrrd", 20.0, 250.0}};
+
+Case scan_case(const Scan& scan, const benchmark::State& state) {
+  const auto folder = std::filesystem::path(std::getenv("NACRE_TEST_DATA")) / "volumes";
+  return make_case(read_volume(folder / scan.file).volume, scan.lo, scan.hi, state);
 }
 
 void count_triangles(benchmark::State& state, const Case& contoured, std::size_t triangles,
@@ -55,8 +78,7 @@ void count_triangles(benchmark::State& state, const Case& contoured, std::size_t
   state.counters["area_mm2"] = area_mm2;
 }
 
-void marching_cubes(benchmark::State& state) {
-  const Case contoured = make_case(state);
+void marching_cubes(benchmark::State& state, const Case& contoured) {
   std::vector<TriangleMesh> meshes;
   for (auto _ : state) {
     meshes = extract_surfaces(contoured.volume, contoured.values);
@@ -75,9 +97,8 @@ void marching_cubes(benchmark::State& state) {
   count_triangles(state, contoured, triangles, area);
 }
 
-void flying_edges(benchmark::State& state) {
+void flying_edges(benchmark::State& state, [[maybe_unused]] const Case& contoured) {
 #ifdef NACRE_HAVE_VTK
-  const Case contoured = make_case(state);
   std::vector<double> stored;
   for (const double value : contoured.values) {
     stored.push_back((value - contoured.volume.intercept) / contoured.volume.slope);
@@ -91,17 +112,42 @@ void flying_edges(benchmark::State& state) {
 #endif
 }
 
-void all_cases(benchmark::internal::Benchmark* bench) {
-  bench->ArgNames({"phantom", "levels"})
-      ->Unit(benchmark::kMillisecond)
-      ->UseRealTime()
-      ->MeasureProcessCPUTime();
-  for (const std::int64_t levels : {1, 12, 48}) bench->Args({0, levels});
-  bench->Args({1, 12})->Args({2, 12});
+using MakeCase = std::function<Case(const benchmark::State&)>;
+
+/// Both ways, for numbers of levels.
+void add_benches(const std::string& name, const MakeCase& make,
+                 std::initializer_list<std::int64_t> levels) {
+  const auto add = [&](const std::string& way, const auto& run) {
+    benchmark::internal::Benchmark* bench = benchmark::RegisterBenchmark(
+        (way + "/" + name).c_str(),
+        [make, run](benchmark::State& state) { run(state, make(state)); });
+    bench->ArgName("levels")->Unit(benchmark::kMillisecond)->UseRealTime()->MeasureProcessCPUTime();
+    for (const std::int64_t count : levels) bench->Arg(count);
+  };
+  add("marching_cubes", marching_cubes);
+  add("flying_edges", flying_edges);
 }
 
-BENCHMARK(marching_cubes)->Apply(all_cases);
-BENCHMARK(flying_edges)->Apply(all_cases);
+void add_all() {
+  const auto phantom = [](const std::string& name) -> MakeCase {
+    return [name](const benchmark::State& state) { return phantom_case(name, state); };
+  };
+  add_benches("angiogram", phantom("angiogram"), {1, 12, 48});
+  add_benches("spheres", phantom("spheres"), {12});
+  add_benches("torus", phantom("torus"), {12});
+  if (std::getenv("NACRE_TEST_DATA") == nullptr) return;
+  for (const Scan& scan : kScans) {
+    add_benches(scan.name,
+                [&scan](const benchmark::State& state) { return scan_case(scan, state); },
+                {12, 48});
+  }
+}
 
 }  // namespace
 }  // namespace nacre
+
+int main(int argc, char** argv) {
+  nacre::add_all();
+  benchmark::Initialize(&argc, argv);
+  benchmark::RunSpecifiedBenchmarks();
+}

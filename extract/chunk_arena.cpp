@@ -11,6 +11,7 @@
 namespace nacre {
 namespace {
 
+constexpr std::size_t kFirstBlock = std::size_t{1} << 16;
 constexpr std::size_t kLargestBlock = std::size_t{1} << 18;
 constexpr std::size_t kAlignment = 16;
 
@@ -42,14 +43,23 @@ void ChunkArena::Free::operator()(std::byte* block) const noexcept { std::free(b
 void* ChunkArena::allocate(std::size_t size) {
   const std::size_t padded = (size + kAlignment - 1) / kAlignment * kAlignment;
   if (static_cast<std::size_t>(end_ - cursor_) < padded) {
-    blocks_.push_back(allocate_block(next_block_));
-    cursor_ = blocks_.back().get();
-    end_ = cursor_ + next_block_;
-    next_block_ = std::min(2 * next_block_, kLargestBlock);
+    if (used_blocks_ == blocks_.size()) {
+      const std::size_t wanted =
+          blocks_.empty() ? kFirstBlock : 2 * blocks_.back().get_deleter().size;
+      blocks_.push_back(allocate_block(std::min(wanted, kLargestBlock)));
+    }
+    const Block& block = blocks_[used_blocks_++];
+    cursor_ = block.get();
+    end_ = cursor_ + block.get_deleter().size;
   }
   std::byte* allocated = cursor_;
   cursor_ += padded;
   return allocated;
+}
+
+void ChunkArena::clear() {
+  used_blocks_ = 0;
+  cursor_ = end_ = nullptr;
 }
 
 }  // namespace nacre

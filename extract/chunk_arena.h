@@ -14,6 +14,9 @@ class ChunkArena {
   /// @return      uninitialised, aligned to 16 bytes
   void* allocate(std::size_t size);
 
+  /// Takes back all that was allocated, and keeps the memory for what comes next.
+  void clear();
+
  private:
   struct Free {
     std::size_t size = 0;
@@ -24,9 +27,9 @@ class ChunkArena {
   static Block allocate_block(std::size_t size);
 
   std::vector<Block> blocks_;
+  std::size_t used_blocks_ = 0;
   std::byte* cursor_ = nullptr;
   std::byte* end_ = nullptr;
-  std::size_t next_block_ = std::size_t{1} << 16;
 };
 
 }  // namespace nacre

@@ -28,6 +28,13 @@ class ChunkedStream {
     return sum;
   }
 
+  /// Forgets all elements, before the arena takes its memory back.
+  void clear() {
+    full_.clear();
+    begin_ = cursor_ = end_ = nullptr;
+    next_chunk_ = kFirstChunk;
+  }
+
   /// Calls `function(std::span<Element>)` with each chunk in order.
   template <class Function>
   void for_each_chunk(Function&& function) {
@@ -64,12 +71,24 @@ struct LevelOutput {
   std::uint64_t shared_count = 0;  ///< vertices of the lowest slice; 0 in the first slab
   std::uint64_t top_begin = 0;     ///< first vertex of the highest slice
 
+  void clear() {
+    positions.clear();
+    triangles.clear();
+    next_vertex = shared_count = top_begin = 0;
+  }
+
   std::uint32_t new_vertex() { return static_cast<std::uint32_t>(next_vertex++); }
 };
 
 /// All levels' surfaces of one slab, and the memory they lie in.
 struct SlabOutput {
   explicit SlabOutput(std::size_t level_count = 0) : levels(level_count) {}
+
+  /// Makes it as at first, for another slab; the memory stays.
+  void clear() {
+    for (LevelOutput& level : levels) level.clear();
+    arena.clear();
+  }
 
   void write_position(std::size_t k, const glm::dvec3& position_mm) {
     *levels[k].positions.room(1, arena) = glm::vec3(position_mm);

@@ -3,7 +3,7 @@
 #include <fmt/core.h>
 #include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/info.h>
-#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/parallel_pipeline.h>
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 #include "core/error.h"
 #include "extract/slab_sweep.h"
-#include "extract/surface_parts.h"
+#include "extract/swept_surfaces.h"
 
 namespace nacre {
 namespace {
@@ -51,40 +51,68 @@ std::vector<Slab> cut_into_slabs(std::size_t layers) {
   return slabs;
 }
 
-/// The slabs' parts of all reached levels.
+/// All reached levels. Slabs are swept on all threads and appended in order, as soon as those below
+/// them are there: at most one a thread stands in memory beside the surfaces, and its memory is
+/// used again.
 template <class T>
-std::unique_ptr<SurfaceParts> sweep(const Volume& volume, const SweepGrid& grid,
-                                    const StoredLevels<T>& levels, const SurfaceStorage& storage,
-                                    ProgressMeter& meter) {
+std::unique_ptr<SweptSurfaces> sweep(const Volume& volume, const SweepGrid& grid,
+                                     const StoredLevels<T>& levels, const SurfaceStorage& storage,
+                                     ProgressMeter& meter) {
   const SampleClasses<T> classes(levels);
   const LatticeVertices<T> vertices(grid, levels, classes, samples_as<T>(volume));
   const SampleReader samples(volume);
   const CellContours contours(grid, samples, levels.crossings, levels.descending);
   const std::vector<Slab> slabs = cut_into_slabs(grid.dims[2] - 1);
-  auto parts =
-      std::make_unique<SurfaceParts>(slabs.size(), levels.count, grid.left_handed, storage);
+  auto surfaces =
+      std::make_unique<SweptSurfaces>(slabs.size(), levels.count, grid.left_handed, storage);
   tbb::enumerable_thread_specific<SweepWorkspace> workspaces(
       [&grid] { return SweepWorkspace(grid); });
-  tbb::parallel_for(std::size_t{0}, slabs.size(), [&](std::size_t s) {
-    parts->put(s, sweep_slab(slabs[s], vertices, contours, levels.count, grid, workspaces.local()));
+  const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+  std::vector<SlabOutput> outputs(std::min(threads, slabs.size()));
+  for (SlabOutput& output : outputs) output = SlabOutput(levels.count);
+
+  std::size_t next = 0;
+  const auto number = [&](tbb::flow_control& flow) {
+    if (next == slabs.size()) flow.stop();
+    return next++;
+  };
+  const auto sweep_one = [&](std::size_t s) {
+    sweep_slab(slabs[s], vertices, contours, grid, workspaces.local(), outputs[s % outputs.size()]);
+    return s;
+  };
+  // Slab s is appended before slab s + outputs.size() is numbered, which takes its output over.
+  const auto append = [&](std::size_t s) {
+    surfaces->append(outputs[s % outputs.size()]);
+    if (surfaces->is_storing()) {
+      outputs[s % outputs.size()] = SlabOutput(levels.count);  // memory is what matters then
+    } else {
+      outputs[s % outputs.size()].clear();
+    }
     meter.advance(slabs[s].end - slabs[s].begin);
-  });
-  return parts;
+  };
+  using tbb::filter_mode;
+  tbb::parallel_pipeline(
+      outputs.size(),
+      tbb::make_filter<void, std::size_t>(filter_mode::serial_in_order, number) &
+          tbb::make_filter<std::size_t, std::size_t>(filter_mode::parallel, sweep_one) &
+          tbb::make_filter<std::size_t, void>(filter_mode::serial_in_order, append));
+  return surfaces;
 }
 
 }  // namespace
-ExtractedSurfaces::ExtractedSurfaces(std::vector<std::unique_ptr<SurfaceParts>> sweeps,
+
+ExtractedSurfaces::ExtractedSurfaces(std::vector<std::unique_ptr<SweptSurfaces>> sweeps,
                                      std::size_t size)
     : sweeps_(std::move(sweeps)), size_(size) {}
 
 std::size_t ExtractedSurfaces::triangle_count(std::size_t k) const {
-  const SurfaceParts& sweep = *sweeps_[k / kLevelsPerSweep];
+  const SweptSurfaces& sweep = *sweeps_[k / kLevelsPerSweep];
   const std::size_t level = k % kLevelsPerSweep;
   return level < sweep.level_count() ? sweep.triangle_count(level) : 0;
 }
 
 TriangleMesh ExtractedSurfaces::take(std::size_t k) {
-  SurfaceParts& sweep = *sweeps_[k / kLevelsPerSweep];
+  SweptSurfaces& sweep = *sweeps_[k / kLevelsPerSweep];
   const std::size_t level = k % kLevelsPerSweep;
   return level < sweep.level_count() ? sweep.take(level) : TriangleMesh();
 }
@@ -96,7 +124,7 @@ ExtractedSurfaces extract_surfaces(const Volume& volume, std::span<const double>
   const SweepGrid grid = make_sweep_grid(volume);
   const std::size_t sweep_count = (values.size() + kLevelsPerSweep - 1) / kLevelsPerSweep;
   ProgressMeter meter(progress, "extract", sweep_count * (grid.dims[2] - 1));
-  std::vector<std::unique_ptr<SurfaceParts>> sweeps;
+  std::vector<std::unique_ptr<SweptSurfaces>> sweeps;
   for (std::size_t first = 0; first < values.size(); first += kLevelsPerSweep) {
     const auto batch = values.subspan(first, std::min(kLevelsPerSweep, values.size() - first));
     visit_scalar_type(volume.type, [&](auto zero) {
@@ -104,7 +132,6 @@ ExtractedSurfaces extract_surfaces(const Volume& volume, std::span<const double>
       const auto levels = stored_levels<T>(batch, volume.slope, volume.intercept);
       sweeps.push_back(sweep<T>(volume, grid, levels, storage, meter));
     });
-    sweeps.back()->settle();
   }
   return {std::move(sweeps), values.size()};
 }

@@ -8,7 +8,7 @@
 #include "core/progress.h"
 #include "core/triangle_mesh.h"
 #include "core/volume.h"
-#include "extract/surface_parts.h"
+#include "extract/swept_surfaces.h"
 
 namespace nacre {
 
@@ -49,7 +49,7 @@ std::vector<TriangleMesh> extract_surfaces(const Volume& volume, std::span<const
 class ExtractedSurfaces {
  public:
   /// @param sweeps  each of 255 levels but the last, less those that nothing can reach
-  ExtractedSurfaces(std::vector<std::unique_ptr<SurfaceParts>> sweeps, std::size_t size);
+  ExtractedSurfaces(std::vector<std::unique_ptr<SweptSurfaces>> sweeps, std::size_t size);
 
   std::size_t size() const noexcept { return size_; }
   std::size_t triangle_count(std::size_t k) const;
@@ -60,7 +60,7 @@ class ExtractedSurfaces {
   TriangleMesh take(std::size_t k);
 
  private:
-  std::vector<std::unique_ptr<SurfaceParts>> sweeps_;
+  std::vector<std::unique_ptr<SweptSurfaces>> sweeps_;
   std::size_t size_;
 };
 

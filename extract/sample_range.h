@@ -1,9 +1,12 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <span>
+#include <type_traits>
 #include <utility>
 
 namespace nacre {
@@ -22,10 +25,26 @@ struct SampleLanes {
   static Vector min(Vector a, Vector b) { return a < b ? a : b; }
   static Vector max(Vector a, Vector b) { return a > b ? a : b; }
 
-  /// The lanes in turn: lane i becomes lane i + kShift.
-  template <std::size_t kShift, std::size_t... kLane>
-  static Vector turned(Vector lanes, std::index_sequence<kLane...>) {
-    return __builtin_shufflevector(lanes, lanes, ((kLane + kShift) % kCount)...);
+  /// Neighbours of `kWidth` lanes change places. As one wide lane each, or as halves of it: a
+  /// shuffle of bytes takes the baseline of x86-64 some thirty instructions, these take one to
+  /// three.
+  template <std::size_t kWidth>
+  static Vector swapped(Vector lanes) {
+    constexpr std::size_t kBytes = kWidth * sizeof(T);
+    if constexpr (kBytes == 8) {
+      using Wide [[gnu::vector_size(16)]] = std::uint64_t;
+      const Wide wide = std::bit_cast<Wide>(lanes);
+      return std::bit_cast<Vector>(__builtin_shufflevector(wide, wide, 1, 0));
+    } else if constexpr (kBytes == 4) {
+      using Wide [[gnu::vector_size(16)]] = std::uint32_t;
+      const Wide wide = std::bit_cast<Wide>(lanes);
+      return std::bit_cast<Vector>(__builtin_shufflevector(wide, wide, 1, 0, 3, 2));
+    } else {
+      using Wide [[gnu::vector_size(16)]] =
+          std::conditional_t<kBytes == 2, std::uint32_t, std::uint16_t>;
+      const Wide wide = std::bit_cast<Wide>(lanes);
+      return std::bit_cast<Vector>(wide << (8 * kBytes) | wide >> (8 * kBytes));
+    }
   }
 
   template <std::size_t kWidth = kCount / 2>
@@ -33,8 +52,7 @@ struct SampleLanes {
     if constexpr (kWidth == 0) {
       return lanes[0];
     } else {
-      constexpr auto kLanes = std::make_index_sequence<kCount>{};
-      return least<kWidth / 2>(min(lanes, turned<kWidth>(lanes, kLanes)));
+      return least<kWidth / 2>(min(lanes, swapped<kWidth>(lanes)));
     }
   }
 
@@ -43,8 +61,7 @@ struct SampleLanes {
     if constexpr (kWidth == 0) {
       return lanes[0];
     } else {
-      constexpr auto kLanes = std::make_index_sequence<kCount>{};
-      return largest<kWidth / 2>(max(lanes, turned<kWidth>(lanes, kLanes)));
+      return largest<kWidth / 2>(max(lanes, swapped<kWidth>(lanes)));
     }
   }
 };

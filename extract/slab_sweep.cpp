@@ -30,10 +30,8 @@ void begin_slab(SlabOutput& output, Ownership ownership) {
 }  // namespace
 
 template <class T>
-SlabOutput sweep_slab(const Slab& slab, const LatticeVertices<T>& vertices,
-                      const CellContours& contours, std::size_t level_count, const SweepGrid& grid,
-                      SweepWorkspace& workspace) {
-  SlabOutput output(level_count);
+void sweep_slab(const Slab& slab, const LatticeVertices<T>& vertices, const CellContours& contours,
+                const SweepGrid& grid, SweepWorkspace& workspace, SlabOutput& output) {
   auto& [lower, upper, gap] = workspace;
   const Ownership ownership = slab.begin == 0 ? Ownership::Own : Ownership::Shared;
   vertices.classify(slab.begin, upper);
@@ -49,24 +47,23 @@ SlabOutput sweep_slab(const Slab& slab, const LatticeVertices<T>& vertices,
     check_numbers(output, workspace);
     contours.add_layer(CellRow(grid, z, lower, upper, gap), output);
   }
-  return output;
 }
 
-template SlabOutput sweep_slab(const Slab&, const LatticeVertices<std::uint8_t>&,
-                               const CellContours&, std::size_t, const SweepGrid&, SweepWorkspace&);
-template SlabOutput sweep_slab(const Slab&, const LatticeVertices<std::int8_t>&,
-                               const CellContours&, std::size_t, const SweepGrid&, SweepWorkspace&);
-template SlabOutput sweep_slab(const Slab&, const LatticeVertices<std::uint16_t>&,
-                               const CellContours&, std::size_t, const SweepGrid&, SweepWorkspace&);
-template SlabOutput sweep_slab(const Slab&, const LatticeVertices<std::int16_t>&,
-                               const CellContours&, std::size_t, const SweepGrid&, SweepWorkspace&);
-template SlabOutput sweep_slab(const Slab&, const LatticeVertices<std::uint32_t>&,
-                               const CellContours&, std::size_t, const SweepGrid&, SweepWorkspace&);
-template SlabOutput sweep_slab(const Slab&, const LatticeVertices<std::int32_t>&,
-                               const CellContours&, std::size_t, const SweepGrid&, SweepWorkspace&);
-template SlabOutput sweep_slab(const Slab&, const LatticeVertices<float>&, const CellContours&,
-                               std::size_t, const SweepGrid&, SweepWorkspace&);
-template SlabOutput sweep_slab(const Slab&, const LatticeVertices<double>&, const CellContours&,
-                               std::size_t, const SweepGrid&, SweepWorkspace&);
+template void sweep_slab(const Slab&, const LatticeVertices<std::uint8_t>&, const CellContours&,
+                         const SweepGrid&, SweepWorkspace&, SlabOutput&);
+template void sweep_slab(const Slab&, const LatticeVertices<std::int8_t>&, const CellContours&,
+                         const SweepGrid&, SweepWorkspace&, SlabOutput&);
+template void sweep_slab(const Slab&, const LatticeVertices<std::uint16_t>&, const CellContours&,
+                         const SweepGrid&, SweepWorkspace&, SlabOutput&);
+template void sweep_slab(const Slab&, const LatticeVertices<std::int16_t>&, const CellContours&,
+                         const SweepGrid&, SweepWorkspace&, SlabOutput&);
+template void sweep_slab(const Slab&, const LatticeVertices<std::uint32_t>&, const CellContours&,
+                         const SweepGrid&, SweepWorkspace&, SlabOutput&);
+template void sweep_slab(const Slab&, const LatticeVertices<std::int32_t>&, const CellContours&,
+                         const SweepGrid&, SweepWorkspace&, SlabOutput&);
+template void sweep_slab(const Slab&, const LatticeVertices<float>&, const CellContours&,
+                         const SweepGrid&, SweepWorkspace&, SlabOutput&);
+template void sweep_slab(const Slab&, const LatticeVertices<double>&, const CellContours&,
+                         const SweepGrid&, SweepWorkspace&, SlabOutput&);
 
 }  // namespace nacre

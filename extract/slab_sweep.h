@@ -32,11 +32,10 @@ struct Slab {
 
 /// Sweeps one slab from its lowest slice up, all levels at once.
 ///
-/// @return        the slab's part of each level's surface
+/// @param output  the slab's part of each level's surface; empty before
 /// @throws Error  Unsupported where the slab holds 2^32 vertices
 template <class T>
-SlabOutput sweep_slab(const Slab& slab, const LatticeVertices<T>& vertices,
-                      const CellContours& contours, std::size_t level_count, const SweepGrid& grid,
-                      SweepWorkspace& workspace);
+void sweep_slab(const Slab& slab, const LatticeVertices<T>& vertices, const CellContours& contours,
+                const SweepGrid& grid, SweepWorkspace& workspace, SlabOutput& output);
 
 }  // namespace nacre

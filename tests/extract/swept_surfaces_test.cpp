@@ -1,8 +1,10 @@
-#include "extract/surface_parts.h"
+#include "extract/swept_surfaces.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <tbb/parallel_for.h>
 
+#include <csignal>
 #include <vector>
 
 #include "core/error.h"
@@ -30,6 +32,26 @@ void expect_same_as_in_memory(const Volume& volume, const SurfaceStorage& storag
   });
 }
 
+/// Files end at this size, as on a disk without more room, until it goes.
+class FullDisk {
+ public:
+  explicit FullDisk(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{bytes, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FullDisk() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+  FullDisk(const FullDisk&) = delete;
+  FullDisk& operator=(const FullDisk&) = delete;
+
+ private:
+  void (*handler_)(int);
+  rlimit before_{};
+};
+
 Volume noise() { return random_volume<std::uint8_t>({9, 11, 40}, 0, 100); }
 
 Volume left_handed_noise() {
@@ -38,23 +60,31 @@ Volume left_handed_noise() {
   return volume;
 }
 
-TEST(SurfaceParts, GiveTheSameSurfacesFromAFile) {
+TEST(SweptSurfaces, GiveTheSameSurfacesFromAFile) {
   const ScratchFolder folder;
   expect_same_as_in_memory(noise(), {.scratch_folder = folder.path()});
   expect_same_as_in_memory(left_handed_noise(), {.scratch_folder = folder.path()});
 }
 
-TEST(SurfaceParts, GiveTheSameSurfacesHalfFromAFile) {
+TEST(SweptSurfaces, GiveTheSameSurfacesHalfFromAFile) {
   const ScratchFolder folder;
   const std::size_t total = 12 * 3 * 8 * extract_surfaces(noise(), kValues)[1].triangles.size();
   expect_same_as_in_memory(noise(), {.scratch_folder = folder.path(), .memory_bytes = total / 3});
 }
 
-TEST(SurfaceParts, StayInMemoryWhereNoFileCanBe) {
+TEST(SweptSurfaces, StayInMemoryWhereNoFileCanBe) {
   expect_same_as_in_memory(noise(), {.scratch_folder = "/nonexistent/folder"});
 }
 
-TEST(SurfaceParts, LeaveNoFileToSee) {
+TEST(SweptSurfaces, StayInMemoryWhereTheDiskIsFull) {
+  const ScratchFolder folder;
+  for (const rlim_t bytes : {0, 1000, 100'000}) {  // before, between and within slabs
+    const FullDisk full(bytes);
+    expect_same_as_in_memory(noise(), {.scratch_folder = folder.path()});
+  }
+}
+
+TEST(SweptSurfaces, LeaveNoFileToSee) {
   const ScratchFolder folder;
   const ExtractedSurfaces surfaces =
       extract_surfaces(noise(), kValues, {.scratch_folder = folder.path()});
