@@ -77,6 +77,10 @@ std::size_t peak_rss_bytes();
 /// called first of all.
 void return_large_blocks();
 
+/// From now on keeps freed blocks for later ones, against `return_large_blocks`: for pictures one
+/// after the other, each of which would else be written to fresh pages (a tenth of a fast frame).
+void keep_freed_memory();
+
 /// Gives back what is free all the same.
 void release_free_memory();
 

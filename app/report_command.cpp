@@ -248,6 +248,7 @@ int run_report(const ReportFlags& flags) {
   const std::unique_ptr<PeerProcess> peers =
       start_peers(flags, context.commands, options.methods, reporter);
   options.peers = peers.get();
+  keep_freed_memory();
   const MeasurementResult result =
       measure(input.volume, input.emission, options, reporter.progress());
   const std::string json = report_json(result, context);

@@ -186,6 +186,7 @@ class Turntable {
 
 TurntableResult write_views(const PictureFlags& flags, const TurntableOptions& options,
                             const std::function<Picture(int view)>& draw) {
+  if (options.views > 1) keep_freed_memory();
   return Turntable(flags, options, draw).run();
 }
 
