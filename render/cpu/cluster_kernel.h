@@ -44,6 +44,9 @@ struct RayEnds {
   float greatest_mm = 0.0F;
 };
 
+/// Pixels beyond the last of a target that kernels may look at.
+inline constexpr std::size_t kPixelPadding = 3;
+
 /// What the pixels of a target hold, of all that was drawn:
 ///
 /// - bytes and words: the greatest rank;
@@ -54,7 +57,7 @@ struct RayEnds {
 /// All start at 0. What is drawn in several targets is merged by the maximum; numbers are added.
 template <class Pixel>
 struct PixelTarget {
-  Pixel* pixels = nullptr;
+  Pixel* pixels = nullptr;  ///< width * height, and `kPixelPadding` that may be looked at
   int width = 0;
   int height = 0;
 };

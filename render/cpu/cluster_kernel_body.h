@@ -67,6 +67,16 @@ Canvas<Pixel, kCut> canvas_at(const ClusterDraw<Pixel>& draw, const PixelTarget<
                   vertices.origin_x);
 }
 
+template <class Pixel, bool kCut>
+RaisedPixels<Pixel, kCut> raised_by(const ClusterDraw<Pixel>& draw,
+                                    const Canvas<Pixel, kCut>& origin, int stride) {
+  if constexpr (RaisedPixels<Pixel, kCut>::kKnown) {
+    return {origin.pixels, stride, draw.brightness.rank};
+  } else {
+    return {};
+  }
+}
+
 template <bool kCut, class Pixel>
 void draw_triangles(const Kernel<Pixel>& kernel, const ClusterDraw<Pixel>& draw,
                     const Cluster& cluster, const PixelVertices& vertices) {
@@ -82,7 +92,8 @@ void draw_triangles(const Kernel<Pixel>& kernel, const ClusterDraw<Pixel>& draw,
   const bool both_faces = draw.faces == Faces::Both;
   // NOLINTNEXTLINE(modernize-avoid-c-arrays)
   alignas(64) std::uint8_t list[kClusterTriangles + kLanePadding + kLanes];
-  const int listed = list_candidates(vertices, corners, count, both_faces, clip, list);
+  const auto raised = raised_by(draw, origin, kernel.target.width);
+  const int listed = list_candidates(vertices, corners, count, both_faces, clip, raised, list);
   for (int i = 0; i < listed; i += kLanes) {
     Triangles triangles = gather_listed(vertices.xy, corners, list + i);
     const Ints swap = orient(triangles, both_faces).swapped;

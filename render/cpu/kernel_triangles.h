@@ -82,10 +82,64 @@ inline Triangles gather_listed(const std::int32_t* vertices, const CornerArrays&
   return {bits_as<Shorts>(a), bits_as<Shorts>(b), bits_as<Shorts>(c)};
 }
 
-/// Lists the triangles that are turned the right way and have a centre within their bounds: few, as
-/// most triangles are smaller than a pixel. The list is padded to whole vectors.
-inline int list_candidates(const PixelVertices& vertices, const CornerArrays& corners, int count,
-                           bool both_faces, const Clip& clip, std::uint8_t* list) {
+/// Pixels that some triangles cannot raise: of whole shells' ranks, those that hold a rank as high.
+template <class Pixel, bool kCut>
+struct RaisedPixels {
+  static constexpr bool kKnown = false;
+};
+
+template <>
+struct RaisedPixels<std::uint8_t, false> {
+  static constexpr bool kKnown = true;
+  /// Larger rectangles are seldom as bright all over.
+  static constexpr int kLargestSide = 8;
+
+  const std::uint8_t* origin;
+  std::ptrdiff_t stride;
+  std::uint8_t rank;
+
+  /// Four pixels to the right of each other, those up to `columns` asked for: the top bits of those
+  /// that are as bright, and of those not asked for. With 128 added, none borrows from the next
+  /// when the rank is taken off.
+  std::uint32_t hold_in_row(const std::uint8_t* pixels, std::uint32_t asked) const {
+    std::uint32_t four = 0;
+    __builtin_memcpy(&four, pixels, 4);
+    return ((four | kTopBits) - rank * 0x01010101U) | ~asked;
+  }
+
+  /// 1 if all of a rectangle is as bright; 0 is always allowed.
+  unsigned hold(int x, int y, int columns, int rows) const {
+    if (rank >= 128) return 0;
+    const std::uint8_t* first = origin + y * stride + x;
+    if (columns < 4 && rows < 4) {  // most: without a branch that depends on them
+      const std::uint32_t asked = kTopBits >> (8 * (3 - columns));
+      std::uint32_t held = hold_in_row(first, asked);
+      for (int dy = 1; dy < 4; ++dy) {
+        held &= hold_in_row(first + (dy < rows ? dy : rows) * stride, asked);
+      }
+      return (held & kTopBits) == kTopBits ? 1 : 0;
+    }
+    if (columns >= kLargestSide || rows >= kLargestSide) return 0;
+    for (int dy = 0; dy <= rows; ++dy) {
+      for (int dx = 0; dx <= columns; dx += 4) {
+        const int beyond = dx + 3 - columns;
+        const std::uint32_t asked = kTopBits >> (beyond > 0 ? 8 * beyond : 0);
+        if ((hold_in_row(first + dy * stride + dx, asked) & kTopBits) != kTopBits) return 0;
+      }
+    }
+    return 1;
+  }
+
+ private:
+  static constexpr std::uint32_t kTopBits = 0x80808080;
+};
+
+/// Lists the triangles that are turned the right way, have a centre within their bounds, and may
+/// raise a pixel: few, as most triangles are smaller than a pixel, and most of the others lie
+/// before brighter shells. The list is padded to whole vectors.
+template <class Raised>
+int list_candidates(const PixelVertices& vertices, const CornerArrays& corners, int count,
+                    bool both_faces, const Clip& clip, const Raised& raised, std::uint8_t* list) {
   int listed = 0;
   for (int t = 0; t < count; t += kLanes) {
     Triangles triangles = gather(vertices.xy, corners, t);
@@ -93,8 +147,20 @@ inline int list_candidates(const PixelVertices& vertices, const CornerArrays& co
     const Centers centers = centers_of(triangles, clip);
     const Ints empty = bits_as<Ints>(centers.first > centers.last);
     unsigned some = sign_bits((empty == 0) & (area > 0));
+    if (some == 0) continue;
+    [[maybe_unused]] alignas(64) std::int16_t first[2 * kLanes];
+    [[maybe_unused]] alignas(64) std::int16_t size[2 * kLanes];
+    if constexpr (Raised::kKnown) {
+      store(first, centers.first);
+      store(size, centers.last - centers.first);
+    }
     for (; some != 0; some &= some - 1) {
-      list[listed++] = static_cast<std::uint8_t>(t + __builtin_ctz(some));
+      const int lane = __builtin_ctz(some);
+      list[listed++] = static_cast<std::uint8_t>(t + lane);
+      if constexpr (Raised::kKnown) {
+        const int x = 2 * lane;
+        listed -= static_cast<int>(raised.hold(first[x], first[x + 1], size[x], size[x + 1]));
+      }
     }
   }
   for (int i = 0; i < kLanes; ++i) list[listed + i] = 0;

@@ -2,12 +2,14 @@
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <span>
 #include <type_traits>
@@ -82,6 +84,31 @@ void add_tasks(const MeshClusters& mesh, ClusterDraw<Pixel> draw,
     draw.count = std::min(kTaskClusters, mesh.clusters.size() - first);
     tasks.push_back(draw);
   }
+}
+
+/// Whole shells hide most of what lies around them: what is drawn after them seldom raises a pixel.
+std::vector<ShellDraw> brightest_first(std::vector<ShellDraw> draws) {
+  std::ranges::stable_sort(draws, std::greater<>{}, &ShellDraw::depth_at_near);
+  return draws;
+}
+
+/// Tasks in another order: a part of every shell, then the next part of every shell, as many parts
+/// as threads. A mesh's clusters follow each other in space, so that a thread, which takes tasks in
+/// a row, draws what hides its later ones itself.
+template <class Pixel>
+std::vector<ClusterDraw<Pixel>> part_by_part(
+    const std::vector<std::vector<ClusterDraw<Pixel>>>& tasks_of_shells) {
+  const auto parts = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+  std::vector<ClusterDraw<Pixel>> tasks;
+  for (std::size_t part = 0; part < parts; ++part) {
+    for (const std::vector<ClusterDraw<Pixel>>& shell : tasks_of_shells) {
+      for (std::size_t i = shell.size() * part / parts; i < shell.size() * (part + 1) / parts;
+           ++i) {
+        tasks.push_back(shell[i]);
+      }
+    }
+  }
+  return tasks;
 }
 
 /// Part of a picture, and how it is seen.
@@ -191,16 +218,16 @@ class PlanDrawing::Targets {
                    ThreadPixels<Pixel>& target) {
     const bool at_start = pass.kind == PassKind::StartCounts;
     const RayEnds ends = at_start ? ends_.starts() : ends_.ends();
-    std::vector<ClusterDraw<Pixel>> tasks;
-    for (const ShellDraw& draw : pass.draws) {
+    std::vector<std::vector<ClusterDraw<Pixel>>> tasks;
+    for (const ShellDraw& draw : brightest_first(pass.draws)) {
       const bool cut = std::is_same_v<Pixel, std::int32_t> || is_cut(draw);
       add_tasks<Pixel>(*scene.shells[draw.shell],
                        {.faces = draw.faces,
                         .brightness = brightness_of<Pixel>(draw, plan),
                         .ends = cut ? &ends : nullptr},
-                       tasks);
+                       tasks.emplace_back());
     }
-    run(tasks, tile, target);
+    run(part_by_part(tasks), tile, target);
   }
 
   template <class Pixel>

@@ -45,7 +45,8 @@ class ThreadPixels<Pixel>::Layers {
   PixelTarget<Pixel> target() {
     Layer<Pixel>& layer = layers_.local();
     if (!layer.used) {
-      layer.pixels.assign(static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y), 0);
+      layer.pixels.assign(
+          static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y) + kPixelPadding, 0);
       layer.used = true;
     }
     return {layer.pixels.data(), size_.x, size_.y};

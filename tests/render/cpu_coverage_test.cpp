@@ -41,12 +41,14 @@ MeshClusters clusters_of(const Corners& corners, const glm::vec3& depths = {}) {
 enum class Way { Baseline, Best, Large };
 constexpr std::array<Way, 3> kWays{Way::Baseline, Way::Best, Way::Large};
 
-std::vector<std::uint8_t> covered(const Corners& corners, Way way, Faces faces = Faces::Both) {
+/// Draws a triangle of a rank over pixels.
+void draw_over(std::vector<std::uint8_t>& pixels, const Corners& corners, std::uint8_t rank,
+               Way way, Faces faces = Faces::Both) {
   const MeshClusters mesh = clusters_of(corners);
-  std::vector<std::uint8_t> pixels(kSide * kSide, 0);
+  pixels.resize(kSide * kSide + kPixelPadding);
   const PixelTarget<std::uint8_t> target{pixels.data(), kSide, kSide};
   const ClusterDraw<std::uint8_t> draw{mesh.clusters.data(), 1,     mesh.positions.data(),
-                                       mesh.corners.data(),  faces, {1}};
+                                       mesh.corners.data(),  faces, {rank}};
   std::array<std::uint32_t, 1> too_large{};
   if (way == Way::Large) {
     draw_large_cluster(draw, pixels_as_positions(), target);
@@ -56,6 +58,12 @@ std::vector<std::uint8_t> covered(const Corners& corners, Way way, Faces faces =
         draw_clusters_for<std::uint8_t>(set)(draw, pixels_as_positions(), target, too_large.data());
     EXPECT_EQ(result.too_large, 0U);
   }
+  pixels.resize(kSide * kSide);
+}
+
+std::vector<std::uint8_t> covered(const Corners& corners, Way way, Faces faces = Faces::Both) {
+  std::vector<std::uint8_t> pixels(kSide * kSide, 0);
+  draw_over(pixels, corners, 1, way, faces);
   return pixels;
 }
 
@@ -66,7 +74,7 @@ std::vector<Pixel> left_of(const MeshClusters& mesh, Way way, const Brightness<P
   ClusterProjection projection = pixels_as_positions();
   projection.row_depth = {0.0F, 0.0F, 1.0F, 0.0F};
   projection.z_of_depth = {1.0F, -0.1F};
-  std::vector<Pixel> pixels(kSide * kSide, 0);
+  std::vector<Pixel> pixels(kSide * kSide + kPixelPadding, 0);
   const PixelTarget<Pixel> target{pixels.data(), kSide, kSide};
   const ClusterDraw<Pixel> draw{
       mesh.clusters.data(), 1,   mesh.positions.data(), mesh.corners.data(), Faces::Both,
@@ -78,6 +86,7 @@ std::vector<Pixel> left_of(const MeshClusters& mesh, Way way, const Brightness<P
     const InstructionSet set = way == Way::Best ? best_instruction_set() : InstructionSet::Baseline;
     draw_clusters_for<Pixel>(set)(draw, projection, target, too_large.data());
   }
+  pixels.resize(kSide * kSide);
   return pixels;
 }
 
@@ -147,6 +156,44 @@ TEST(CpuCoverage, BothWaysAndAllInstructionsCutTheSame) {
   }
   EXPECT_GT(ranks, 1000U);
   EXPECT_GT(counted, 1000U);
+}
+
+// Kernels pass over what cannot raise a pixel, many pixels at once: pixels as bright as the
+// triangle or brighter, with darker ones here and there.
+TEST(CpuCoverage, EveryPixelHoldsTheBrighterOfBoth) {
+  std::mt19937 random(5);
+  std::uniform_int_distribution<int> any(0, 255);
+  std::vector<std::uint8_t> before(kSide * kSide);
+  std::size_t raised = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const int rank =
+        std::array{1, 2, 100, 127, 128, 129, 254, 255}[static_cast<std::size_t>(i % 8)];
+    const int dark_one_in = 1 + i % 50;
+    for (std::uint8_t& pixel : before) {
+      const bool dark = any(random) % dark_one_in == 0;
+      pixel =
+          static_cast<std::uint8_t>(dark ? any(random) % rank : rank + any(random) % (256 - rank));
+    }
+    const glm::vec2 corner = random_corner(random);
+    const auto near = [&](float reach) {
+      return corner + reach * (random_corner(random) - corner) / static_cast<float>(kSide);
+    };
+    const float reach = i % 3 == 0 ? 2.0F : 8.0F;
+    const Corners corners{corner, near(reach), near(reach)};
+    const std::vector<std::uint8_t> is_covered = covered(corners, Way::Large);
+    std::vector<std::uint8_t> expected = before;
+    for (std::size_t at = 0; at < expected.size(); ++at) {
+      if (is_covered[at] == 0 || expected[at] >= rank) continue;
+      expected[at] = static_cast<std::uint8_t>(rank);
+      ++raised;
+    }
+    for (const Way way : kWays) {
+      std::vector<std::uint8_t> pixels = before;
+      draw_over(pixels, corners, static_cast<std::uint8_t>(rank), way);
+      ASSERT_EQ(pixels, expected) << "triangle " << i << " of rank " << rank;
+    }
+  }
+  EXPECT_GT(raised, 1000U);
 }
 
 TEST(CpuCoverage, NearerTrianglesHaveGreaterKeys) {
