@@ -200,7 +200,7 @@ SceneFacts facts_of(const ShellFileInfo& info, std::span<const Tool> tools) {
 
 void add_draw_flags(CLI::App& verb, DrawFlags& flags) {
   const std::string group = "Drawing shells";
-  verb.add_option("--backend", flags.backend, "auto, egl, osmesa or cpu (maximum projections)")
+  verb.add_option("--backend", flags.backend, "auto, egl, osmesa or cpu (all but lit shells)")
       ->capture_default_str()
       ->group(group);
   verb.add_option("--depth-buffer", flags.depth_buffer, "16, 24 or 32f")
@@ -306,8 +306,8 @@ void run_shells_of_volume(const ExactFlags& flags, const DrawFlags& draw,
 }
 
 void say_backends() {
-  fmt::print("{:<7} {:<12} {:<9} maximum projections of whole shells\n", "cpu", "built in",
-             "processor");
+  fmt::print("{:<7} {:<12} {:<9} maximum projections, sums and counts of shells\n", "cpu",
+             "built in", "processor");
   const BackendList list = list_backends();
   for (const BackendInfo& info : list.working) {
     fmt::print("{:<7} {:<12} {:<9} {} ({})\n", name(info.backend), info.platform,

@@ -1,9 +1,10 @@
-// Maximum projection on the processor against what else there is: frames of 512 x 512 pixels, 36
-// views about the volume, the time beside its error. Real scans are read from the folder that
-// NACRE_TEST_DATA names, and left out where it is not set.
+// Maximum projections and sums on the processor against what else there is: frames of 512 x 512
+// pixels, 36 views about the volume, the time beside its error. Real scans are read from the folder
+// that NACRE_TEST_DATA names, and left out where it is not set.
 #include <benchmark/benchmark.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -76,11 +77,14 @@ class LoadedScene {
     return set;
   }
 
-  const Image& truth(int view) {
-    if (truth_.empty()) {
-      for (const Camera& camera : cameras_) truth_.push_back(exact_picture(walk_, camera).volume);
+  const std::vector<Image>& truth(PictureMode mode) {
+    std::vector<Image>& truth = truth_[mode];
+    if (truth.empty()) {
+      for (const Camera& camera : cameras_) {
+        truth.push_back(exact_picture(walk_, camera, {.mode = mode}).volume);
+      }
     }
-    return truth_[static_cast<std::size_t>(view)];
+    return truth;
   }
 
   const Camera& camera(int view) const { return cameras_[static_cast<std::size_t>(view)]; }
@@ -103,7 +107,7 @@ class LoadedScene {
   BoundingSphere sphere_;
   std::vector<Camera> cameras_;
   std::map<int, ShellSet> sets_;
-  std::vector<Image> truth_;
+  std::map<PictureMode, std::vector<Image>> truth_;
 };
 
 LoadedScene& loaded(const Scene& scene) {
@@ -113,61 +117,77 @@ LoadedScene& loaded(const Scene& scene) {
   return *entry;
 }
 
+/// The value that errors are stated against: 1, or the largest of all exact sums.
+double peak_of(PictureMode mode, const std::vector<Image>& truth) {
+  if (mode == PictureMode::Max) return 1.0;
+  float peak = 0.0F;
+  for (const Image& image : truth) peak = std::max(peak, *std::ranges::max_element(image.pixels));
+  return peak;
+}
+
 /// Draws all views over and over, then states the error over all views together.
 template <class Draw>
-void frames(benchmark::State& state, LoadedScene& scene, const Draw& draw) {
+void frames(benchmark::State& state, LoadedScene& scene, PictureMode mode, const Draw& draw) {
   for (int view = 0; view < kViews; ++view) benchmark::DoNotOptimize(draw(scene.camera(view)));
   int view = 0;
   for (auto _ : state) benchmark::DoNotOptimize(draw(scene.camera(view++ % kViews)));
+  const std::vector<Image>& truth = scene.truth(mode);
+  const double peak = peak_of(mode, truth);
   double squares_all = 0.0;
   double squares_lit = 0.0;
   double all = 0.0;
   double lit = 0.0;
   for (view = 0; view < kViews; ++view) {
     const PictureComparison error =
-        compare_pictures(draw(scene.camera(view)), scene.truth(view), 1.0);
+        compare_pictures(draw(scene.camera(view)), truth[static_cast<std::size_t>(view)], peak);
     squares_all += std::pow(error.all.rmse, 2) * static_cast<double>(error.all.pixels);
     squares_lit += std::pow(error.lit.rmse, 2) * static_cast<double>(error.lit.pixels);
     all += static_cast<double>(error.all.pixels);
     lit += static_cast<double>(error.lit.pixels);
   }
-  state.counters["dB_all"] = -10.0 * std::log10(squares_all / all);
-  state.counters["dB_lit"] = -10.0 * std::log10(squares_lit / lit);
+  state.counters["dB_all"] = -10.0 * std::log10(squares_all / all / (peak * peak));
+  state.counters["dB_lit"] = -10.0 * std::log10(squares_lit / lit / (peak * peak));
 }
 
 template <class Renderer>
-void shell_frames(benchmark::State& state, const Scene& scene, int levels, Renderer& renderer) {
+void shell_frames(benchmark::State& state, const Scene& scene, int levels, PictureMode mode,
+                  Renderer& renderer) {
   LoadedScene& data = loaded(scene);
   renderer.upload(data.shells(levels));
-  frames(state, data, [&](const Camera& camera) { return renderer.render(camera).volume; });
+  frames(state, data, mode, [&](const Camera& camera) {
+    return renderer.render(camera, RenderOptions{.mode = mode}).volume;
+  });
   std::size_t triangles = 0;
   for (const Shell& shell : data.shells(levels).shells) triangles += shell.surface.triangles.size();
   state.counters["triangles"] = static_cast<double>(triangles);
 }
 
 void cpu_frames(benchmark::State& state, const Scene& scene, int levels, std::size_t threads,
-                double detail_px = 0.0) {
+                double detail_px = 0.0, PictureMode mode = PictureMode::Max) {
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
   CpuRenderer renderer({.detail_px = detail_px});
-  shell_frames(state, scene, levels, renderer);
+  shell_frames(state, scene, levels, mode, renderer);
 }
 
-void gl_frames(benchmark::State& state, const Scene& scene, int levels, Backend backend) {
+void gl_frames(benchmark::State& state, const Scene& scene, int levels, Backend backend,
+               PictureMode mode = PictureMode::Max) {
   try {
     GlRenderer renderer(backend);
-    shell_frames(state, scene, levels, renderer);
+    shell_frames(state, scene, levels, mode, renderer);
   } catch (const Error& error) {
     state.SkipWithError(error.what());
   }
 }
 
-void exact_frames(benchmark::State& state, const Scene& scene) {
+void exact_frames(benchmark::State& state, const Scene& scene,
+                  PictureMode mode = PictureMode::Max) {
   LoadedScene& data = loaded(scene);
-  frames(state, data,
-         [&](const Camera& camera) { return exact_picture(data.walk(), camera).volume; });
+  frames(state, data, mode, [&](const Camera& camera) {
+    return exact_picture(data.walk(), camera, {.mode = mode}).volume;
+  });
 }
 
-/// What of the scene shows: all of it, a slab of a third, or what a scalpel leaves of it.
+/// What of the scene shows, and how: all of it, a slab of a third, or what a scalpel leaves of it.
 struct Cut {
   std::string name;
   RenderOptions options;
@@ -217,13 +237,32 @@ void register_scene(const Scene& scene) {
   }
 }
 
+void register_sums(const Scene& scene) {
+  constexpr PictureMode kSum = PictureMode::Sum;
+  register_bench(scene.name + "/sum/exact", [=](auto& state) { exact_frames(state, scene, kSum); });
+  for (const int levels : {12, 24, 48}) {
+    const std::string shells = scene.name + "/sum/" + std::to_string(levels);
+    for (const std::size_t threads : {std::size_t{1}, std::size_t{2}}) {
+      register_bench(shells + "/cpu/threads:" + std::to_string(threads),
+                     [=](auto& state) { cpu_frames(state, scene, levels, threads, 0.0, kSum); });
+    }
+    register_bench(shells + "/osmesa",
+                   [=](auto& state) { gl_frames(state, scene, levels, Backend::OsMesa, kSum); });
+  }
+}
+
 void register_cuts(const Scene& scene) {
   const Slab slab{.near_mm = -20.0, .far_mm = 15.0};
   const DepthCue cue{.a = 0.8, .b = 0.2};
   const std::vector<Cut> cuts{{"whole", {}},
                               {"slab", {.slab = slab}},
                               {"tool", {}, true},
-                              {"tool+slab+cue", {.cue = cue, .slab = slab}, true}};
+                              {"tool+slab+cue", {.cue = cue, .slab = slab}, true},
+                              {"count", {.mode = PictureMode::Count}},
+                              {"sum", {.mode = PictureMode::Sum}},
+                              {"sum+cue", {.mode = PictureMode::Sum, .cue = cue}},
+                              {"sum+slab", {.mode = PictureMode::Sum, .slab = slab}},
+                              {"sum+tool", {.mode = PictureMode::Sum}, true}};
   for (const Cut& cut : cuts) {
     const std::string name = scene.name + "/cut:" + cut.name;
     register_bench(name + "/cpu", [=](benchmark::State& state) {
@@ -257,6 +296,7 @@ int main(int argc, char** argv) {
     nacre::register_scene({"chris_MRA", "chris_MRA.nii.gz", 20.0, 230.0});
     nacre::register_scene({"aneurism", "aneurism_256_uint8.nrrd", 20.0, 250.0});
     nacre::register_scene({"MR_Gd", "MR_Gd.nii.gz", 648.0, 1556.0});
+    nacre::register_sums({"chris_MRA", "chris_MRA.nii.gz", 20.0, 230.0});
     nacre::register_cuts({"chris_MRA", "chris_MRA.nii.gz", 20.0, 230.0});
   }
   nacre::register_growing();

@@ -48,6 +48,7 @@ template DrawClusters<std::uint8_t> draw_clusters_for(InstructionSet set) noexce
 template DrawClusters<std::uint16_t> draw_clusters_for(InstructionSet set) noexcept;
 template DrawClusters<float> draw_clusters_for(InstructionSet set) noexcept;
 template DrawClusters<std::int32_t> draw_clusters_for(InstructionSet set) noexcept;
+template DrawClusters<std::int64_t> draw_clusters_for(InstructionSet set) noexcept;
 template DrawClusters<std::uint64_t> draw_clusters_for(InstructionSet set) noexcept;
 
 }  // namespace nacre

@@ -52,9 +52,12 @@ inline constexpr std::size_t kPixelPadding = 3;
 /// - bytes and words: the greatest rank;
 /// - floats: the greatest emission;
 /// - std::int32_t: a number of shells: back minus front faces beyond the ends of rays;
+/// - std::int64_t: a sum of what crossings add, in steps: whole numbers, which add up to the same
+///   in any order;
 /// - std::uint64_t: the nearest triangle, as `key_of` makes it.
 ///
-/// All start at 0. What is drawn in several targets is merged by the maximum; numbers are added.
+/// All start at 0. What is drawn in several targets is merged by the maximum; numbers and sums are
+/// added.
 template <class Pixel>
 struct PixelTarget {
   Pixel* pixels = nullptr;  ///< width * height, and `kPixelPadding` that may be looked at
@@ -78,6 +81,22 @@ struct Brightness<float> {
 /// ... or 1 for back faces, -1 for front faces ...
 template <>
 struct Brightness<std::int32_t> {};
+
+/// ... or, for sums, steps at a depth d beyond the start of the ray: the whole part of
+/// constant + d (linear + square d), at most `kMostSteps` at the depths of corners ...
+template <>
+struct Brightness<std::int64_t> {
+  float constant = 0.0F;
+  float linear = 0.0F;
+  float square = 0.0F;
+  /// An integral: front faces take off what back faces add, and crossings before the start or
+  /// beyond the end of a ray count as there. Else each crossing between them adds the same way.
+  bool is_signed = false;
+};
+
+/// Steps of one crossing, a quarter of what 32 bits hold: triangles thinner than the rounding of
+/// their corners may be crossed by up to two thirds of the scene's depth beyond them.
+inline constexpr float kMostSteps = 0x1p29F;
 
 /// ... or which triangle it is: this number plus its place among the corners of its mesh.
 template <>
@@ -103,8 +122,8 @@ struct ClusterDraw {
   const std::uint8_t* corners = nullptr;
   Faces faces = Faces::Front;
   Brightness<Pixel> brightness;
-  /// Ranks and emissions show between start and end of rays only, if there are any; numbers of
-  /// shells need them.
+  /// Ranks, emissions and sums show between start and end of rays only, if there are any; numbers
+  /// of shells need them.
   const RayEnds* ends = nullptr;
 };
 
@@ -137,6 +156,7 @@ extern template DrawClusters<std::uint8_t> draw_clusters_for(InstructionSet set)
 extern template DrawClusters<std::uint16_t> draw_clusters_for(InstructionSet set) noexcept;
 extern template DrawClusters<float> draw_clusters_for(InstructionSet set) noexcept;
 extern template DrawClusters<std::int32_t> draw_clusters_for(InstructionSet set) noexcept;
+extern template DrawClusters<std::int64_t> draw_clusters_for(InstructionSet set) noexcept;
 extern template DrawClusters<std::uint64_t> draw_clusters_for(InstructionSet set) noexcept;
 
 }  // namespace nacre

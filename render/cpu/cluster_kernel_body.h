@@ -14,22 +14,66 @@
 namespace nacre::NACRE_KERNEL {
 namespace {
 
-inline Floats gather_depths(const float* depths, const std::uint8_t* corners,
+inline Floats gather_floats(const float* values, const std::uint8_t* corners,
                             const std::uint8_t* list) {
   Floats gathered;
-  for (int i = 0; i < kLanes; ++i) gathered[i] = depths[corners[list[i]]];
+  for (int i = 0; i < kLanes; ++i) gathered[i] = values[corners[list[i]]];
   return gathered;
 }
 
+/// Depths, and how far corners are rounded aside, pixels.
+struct PlaneCorner {
+  Floats x, y, depth;
+
+  Floats off(const Floats& pixel) const {
+    const Floats sub_pixels = pixel * static_cast<float>(kSubpixels);
+    return ((sub_pixels + kRound) - kRound - sub_pixels) / static_cast<float>(kSubpixels);
+  }
+  /// The depth of a plane of that slope where the corner was rounded to. What is thinner than
+  /// rounding has no slope that means anything, so depth moves by `most` at most.
+  Floats rounded_depth(const Floats& slope_x, const Floats& slope_y, const Floats& most) const {
+    return depth + least(greatest(slope_x * off(x) + slope_y * off(y), -most), most);
+  }
+};
+
+inline PlaneCorner plane_corner(const PixelVertices& vertices, const std::uint8_t* corners,
+                                const std::uint8_t* list) {
+  return {gather_floats(vertices.x, corners, list), gather_floats(vertices.y, corners, list),
+          gather_floats(vertices.depth, corners, list)};
+}
+
+/// Moves the depths of corners to where these were rounded, along the plane of the triangle: a
+/// crossing then lies where the ray meets the triangle as it was, not up to the slope times 1/256
+/// of a pixel aside.
+inline void stay_on_plane(PlaneCorner& a, PlaneCorner& b, PlaneCorner& c, bool perspective) {
+  const PlaneCorner u{b.x - a.x, b.y - a.y, b.depth - a.depth};
+  const PlaneCorner v{c.x - a.x, c.y - a.y, c.depth - a.depth};
+  const Floats area = u.x * v.y - u.y * v.x;
+  const Floats slope_x = (u.depth * v.y - v.depth * u.y) / area;
+  const Floats slope_y = (v.depth * u.x - u.depth * v.x) / area;
+  const Floats lowest = least(least(a.depth, b.depth), c.depth);
+  Floats most = 0.25F * (greatest(greatest(a.depth, b.depth), c.depth) - lowest);
+  if (perspective) most = least(most, 0.2F * lowest);  // 1 / depth has to stay positive
+  a.depth = a.rounded_depth(slope_x, slope_y, most);
+  b.depth = b.rounded_depth(slope_x, slope_y, most);
+  c.depth = c.rounded_depth(slope_x, slope_y, most);
+}
+
 /// @param swap  lanes whose second and third corners were exchanged
-template <bool kDepth>
+template <bool kDepth, bool kExact>
 CornerDepths<kDepth> corner_depths(bool perspective, const PixelVertices& vertices,
                                    const CornerArrays& corners, const std::uint8_t* list,
                                    const Ints& swap) {
-  if constexpr (kDepth) {
-    const Floats a = gather_depths(vertices.depth, corners.first, list);
-    const Floats b = gather_depths(vertices.depth, corners.second, list);
-    const Floats c = gather_depths(vertices.depth, corners.third, list);
+  if constexpr (kExact) {
+    PlaneCorner a = plane_corner(vertices, corners.first, list);
+    PlaneCorner b = plane_corner(vertices, corners.second, list);
+    PlaneCorner c = plane_corner(vertices, corners.third, list);
+    stay_on_plane(a, b, c, perspective);
+    return {{swap ? b.depth : c.depth, a.depth, swap ? c.depth : b.depth}, perspective};
+  } else if constexpr (kDepth) {
+    const Floats a = gather_floats(vertices.depth, corners.first, list);
+    const Floats b = gather_floats(vertices.depth, corners.second, list);
+    const Floats c = gather_floats(vertices.depth, corners.third, list);
     return {{swap ? b : c, a, swap ? c : b}, perspective};
   } else {
     return {};
@@ -48,6 +92,8 @@ Source<Pixel> source_of(const ClusterDraw<Pixel>& draw, const ClusterProjection&
                         const Cluster& cluster, const std::uint8_t* list, const Ints& swap) {
   if constexpr (kCounts<Pixel>) {
     return {1 + 2 * swap};
+  } else if constexpr (kSums<Pixel>) {
+    return {draw.brightness, projection.start_mm, draw.brightness.is_signed ? swap : Ints{}};
   } else if constexpr (sizeof(Pixel) == sizeof(std::uint64_t)) {
     const std::uint32_t first = draw.brightness.first_triangle + cluster.first_corner / 3;
     return {projection.start_mm, ~(listed_numbers(list) + static_cast<std::int32_t>(first))};
@@ -97,10 +143,11 @@ void draw_triangles(const Kernel<Pixel>& kernel, const ClusterDraw<Pixel>& draw,
   for (int i = 0; i < listed; i += kLanes) {
     Triangles triangles = gather_listed(vertices.xy, corners, list + i);
     const Ints swap = orient(triangles, both_faces).swapped;
-    const Shade<Pixel, kCut> shade{
-        corner_depths < kCut ||
-            kDeep < Pixel >> (projection.perspective, vertices, corners, list + i, swap),
-        source_of(draw, projection, cluster, list + i, swap), projection.start_mm};
+    constexpr bool kDepth = kCut || kDeep<Pixel>;
+    const Shade<Pixel, kCut> shade{corner_depths<kDepth, kOnPlane<Pixel>>(
+                                       projection.perspective, vertices, corners, list + i, swap),
+                                   source_of(draw, projection, cluster, list + i, swap),
+                                   projection.start_mm};
     cover(triangles, listed - i, clip, origin, kernel.target.width, shade);
   }
 }
@@ -134,7 +181,7 @@ KernelResult draw_clusters(const ClusterDraw<Pixel>& draw, const ClusterProjecti
     if (cannot_show(kernel, draw.faces, cluster)) continue;
     const Reach reach = near_plane(kernel, cluster);
     if (reach == Reach::Behind) continue;
-    const Part part = part_of(kernel, draw.ends, cluster);
+    const Part part = part_of(kernel, draw, cluster);
     if (part == Part::None) continue;
     result.triangles += cluster.triangles;
     bool drawn = false;
@@ -158,6 +205,7 @@ template DrawClusters<std::uint8_t> draw_clusters_of() noexcept;
 template DrawClusters<std::uint16_t> draw_clusters_of() noexcept;
 template DrawClusters<float> draw_clusters_of() noexcept;
 template DrawClusters<std::int32_t> draw_clusters_of() noexcept;
+template DrawClusters<std::int64_t> draw_clusters_of() noexcept;
 template DrawClusters<std::uint64_t> draw_clusters_of() noexcept;
 
 }  // namespace nacre::NACRE_KERNEL

@@ -47,15 +47,25 @@ double most_pixels_per_mm(const Camera& camera, const glm::dvec3& center_mm, con
 /// Whether the pass is part of what this renderer draws.
 bool draws(const Pass& pass) {
   return pass.kind == PassKind::ToolLayer || pass.kind == PassKind::MaxDepth ||
-         pass.kind == PassKind::StartCounts || pass.kind == PassKind::EndCounts;
+         pass.kind == PassKind::StartCounts || pass.kind == PassKind::EndCounts ||
+         pass.kind == PassKind::Sum || pass.kind == PassKind::Count;
 }
 
 }  // namespace
 
 std::optional<std::string> cpu_objection(const Plan& plan) {
   for (const Pass& pass : plan.passes) {
-    if (draws(pass)) continue;
-    return fmt::format("it draws maximum projections, tools by texture, not '{}'", describe(pass));
+    if (!draws(pass)) {
+      return fmt::format(
+          "it draws maximum projections, sums and counts, tools by texture, not '{}'",
+          describe(pass));
+    }
+    const bool adds_up = pass.kind == PassKind::Sum || pass.kind == PassKind::Count;
+    if (adds_up && plan.target != TargetFormat::F32) {
+      return fmt::format(
+          "it adds up in whole numbers, read as floats: found target {}, expected 32f",
+          name(plan.target));
+    }
   }
   const std::size_t most = std::numeric_limits<std::uint16_t>::max();
   if (plan.emission_of_rank.size() <= most + 1) return std::nullopt;

@@ -23,14 +23,16 @@ struct CpuOptions {
 };
 
 /// Why `CpuRenderer` does not draw the pictures of this plan; nothing if it does. It draws maximum
-/// projections; tools by texture, not by passes.
+/// projections, sums and counts, the latter two into targets of 32 bits; tools by texture, not by
+/// passes.
 std::optional<std::string> cpu_objection(const Plan& plan);
 
-/// Draws maximum projections of shell sets on the processor, without OpenGL.
+/// Draws maximum projections, sums and counts of shell sets on the processor, without OpenGL.
 ///
-/// A maximum does not depend on the order of drawing, so threads share nothing: each raises the
-/// pixels of a picture of its own, and the greatest of them is the picture. The same bytes for any
-/// number of threads and for all instruction sets. Pixels are those of `GlRenderer`, but for
+/// A maximum does not depend on the order of drawing, nor does a sum of whole numbers, so threads
+/// share nothing: each raises the pixels of a picture of its own, or adds to them, and the greatest
+/// or the sum of them is the picture. The same bytes for any number of threads and for all
+/// instruction sets. Pixels are those of `GlRenderer`, but for
 /// corners that floats put to either side of a sub-pixel.
 ///
 /// Uses all threads of the calling TBB arena. A renderer is used from one thread at a time.

@@ -70,6 +70,39 @@ struct Source<std::int32_t> {
   Source of_lane(int lane) const { return {Ints{} + leaving[lane]}; }
 };
 
+/// ... or what a crossing adds to a sum ...
+template <>
+struct Source<std::int64_t> {
+  Brightness<std::int64_t> brightness;
+  float start_mm;
+  Ints negative;  // -1: taken off
+
+  Ints at(const Floats& depth) const {
+    const Ints steps = __builtin_convertvector(steps_at(depth - start_mm), Ints);
+    return (steps ^ negative) - negative;
+  }
+
+  /// The same for one lane where its ray may start after it and end before it.
+  std::int32_t within(float depth_mm, float end_mm, int lane) const {
+    if (brightness.is_signed) {
+      depth_mm = depth_mm < end_mm ? depth_mm : end_mm;
+      depth_mm = depth_mm > 0.0F ? depth_mm : 0.0F;
+    } else if (!(depth_mm >= 0.0F && depth_mm <= end_mm)) {
+      return 0;
+    }
+    const auto steps = static_cast<std::int32_t>(steps_at(depth_mm));
+    return (steps ^ negative[lane]) - negative[lane];
+  }
+
+  Source of_lane(int lane) const { return {brightness, start_mm, Ints{} + negative[lane]}; }
+
+ private:
+  template <class Depth>
+  Depth steps_at(const Depth& d) const {
+    return brightness.constant + d * (brightness.linear + brightness.square * d);
+  }
+};
+
 /// ... or a triangle and its depth, as in `key_of`.
 template <>
 struct Source<std::uint64_t> {
@@ -120,11 +153,22 @@ struct Fragments {
       value = shows ? value : Pixel{0};
     }
     Pixel& pixel = canvas.pixels[offset];
-    if constexpr (kCounts<Pixel>) {
+    if constexpr (kCounts<Pixel> || kSums<Pixel>) {
       pixel += value;
     } else {
       pixel = pixel < value ? value : pixel;
     }
+  }
+};
+
+/// Of sums, each lane adds what is left of it between start and end of its own ray.
+template <>
+struct Fragments<std::int64_t, true> {
+  const Source<std::int64_t>& source;
+  Floats depth_mm;
+
+  void put(const Canvas<std::int64_t, true>& canvas, std::ptrdiff_t offset, int lane) const {
+    canvas.pixels[offset] += source.within(depth_mm[lane], canvas.ends_mm[offset], lane);
   }
 };
 
@@ -138,7 +182,11 @@ struct Shade {
   Fragments<Pixel, kCut> at(const Edges& edges, const Ints& value0, const Ints& value1,
                             const Ints& value2) const {
     const Floats depth = depths.at(edges, value0, value1, value2);
-    return {source.at(depth), depth - start_mm};
+    if constexpr (kCut && kSums<Pixel>) {
+      return {source, depth - start_mm};
+    } else {
+      return {source.at(depth), depth - start_mm};
+    }
   }
   Shade of_lane(int lane) const { return {depths.of_lane(lane), source.of_lane(lane), start_mm}; }
 };

@@ -114,23 +114,47 @@ constexpr bool kCounts = false;
 template <>
 constexpr bool kCounts<std::int32_t> = true;
 
+/// Whether they hold sums.
+template <class Pixel>
+constexpr bool kSums = false;
+template <>
+constexpr bool kSums<std::int64_t> = true;
+
 /// Whether what pixels hold depends on depth.
 template <class Pixel>
 constexpr bool kDeep = false;
 template <>
 constexpr bool kDeep<float> = true;
 template <>
+constexpr bool kDeep<std::int64_t> = true;
+template <>
 constexpr bool kDeep<std::uint64_t> = true;
+
+/// Whether crossings beyond the end of a ray count as at its end.
+template <class Pixel>
+bool counts_beyond(const Brightness<Pixel>& brightness) {
+  if constexpr (kSums<Pixel>) return brightness.is_signed;
+  return false;
+}
+
+/// Whether it takes the depth of the very triangle, not of the one with rounded corners: what adds
+/// up, and where tools end rays. Both are a few more steps a triangle.
+template <class Pixel>
+constexpr bool kOnPlane = kSums<Pixel>;
+template <>
+constexpr bool kOnPlane<std::uint64_t> = true;
 
 /// What part of the cluster shows, or, for numbers of shells, lies beyond the ends.
 template <class Pixel>
-Part part_of(const Kernel<Pixel>& kernel, const RayEnds* ends, const Cluster& cluster) {
+Part part_of(const Kernel<Pixel>& kernel, const ClusterDraw<Pixel>& draw, const Cluster& cluster) {
+  const RayEnds* ends = draw.ends;
   if (ends == nullptr) return Part::All;
   const Extent depths = depths_of(kernel, cluster);
   if constexpr (kCounts<Pixel>) {
     return depths.hi > ends->least_mm ? Part::Some : Part::None;
   } else {
-    if (depths.hi < 0.0F || depths.lo > ends->greatest_mm) return Part::None;
+    if (depths.hi < 0.0F) return Part::None;
+    if (depths.lo > ends->greatest_mm && !counts_beyond<Pixel>(draw.brightness)) return Part::None;
     return depths.lo >= 0.0F && depths.hi <= ends->least_mm ? Part::All : Part::Some;
   }
 }
@@ -142,6 +166,9 @@ struct PixelVertices {
   alignas(64) std::int32_t xy[256];  // sub-pixels from the origin, x in the lower half
   int origin_x, origin_y;            // a pixel
 };
+
+/// Adding 1.5 * 2^23 rounds to the nearest integer and leaves it in the lowest bits.
+constexpr float kRound = 12582912.0F;
 
 inline Extent extent_of(const Floats& lo, const Floats& hi) {
   Extent extent{lo[0], hi[0]};
@@ -193,10 +220,8 @@ bool project(const Kernel<Pixel>& kernel, const float* positions, int count, Pix
   // Widening by a pixel lets clusters be at most that far outside.
   out.origin_x = static_cast<int>(across.lo + kKernelSide) - static_cast<int>(kKernelSide);
   out.origin_y = static_cast<int>(down.lo + kKernelSide) - static_cast<int>(kKernelSide);
-  // Adding 1.5 * 2^23 rounds to the nearest integer and leaves it in the lowest bits. Rounded
-  // before the origin is taken off: neighbouring clusters have different origins, but share
-  // vertices.
-  constexpr float kRound = 12582912.0F;
+  // Rounded before the origin is taken off: neighbouring clusters have different origins, but
+  // share vertices.
   constexpr std::int32_t kRoundBits = 0x4B400000;
   const std::int32_t from_x = kRoundBits + out.origin_x * kSubpixels;
   const std::int32_t from_y = kRoundBits + out.origin_y * kSubpixels;

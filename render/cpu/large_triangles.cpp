@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
@@ -20,7 +21,9 @@ constexpr double kReach = 1 << 19;
 struct Point {
   std::int64_t x = 0;
   std::int64_t y = 0;
-  double depth = 0.0;  ///< or 1 / depth (perspective)
+  double depth = 0.0;    ///< or 1 / depth (perspective)
+  double exact_x = 0.0;  ///< before rounding
+  double exact_y = 0.0;
 };
 
 /// A corner in clip coordinates x, y, depth (without perspective), w.
@@ -82,6 +85,24 @@ void narrow(const Point& a, const Point& b, std::int64_t center_y, std::int64_t&
   }
 }
 
+/// Moves the depths of corners to where these were rounded, along the plane of the triangle: as
+/// the kernels do for sums and tools.
+void stay_on_plane(Point& a, Point& b, Point& c, bool perspective) {
+  const auto across = [&](const Point& p) {
+    return glm::dvec3(p.exact_x - a.exact_x, p.exact_y - a.exact_y, p.depth - a.depth);
+  };
+  const glm::dvec3 normal = glm::cross(across(b), across(c));
+  const auto [least, greatest] = std::minmax({a.depth, b.depth, c.depth});
+  double most = 0.25 * (greatest - least);
+  if (perspective) most = std::min(most, 0.2 * least);
+  if (normal.z == 0.0) return;
+  for (Point* p : {&a, &b, &c}) {
+    const double by = normal.x * (static_cast<double>(p->x) - p->exact_x) +
+                      normal.y * (static_cast<double>(p->y) - p->exact_y);
+    p->depth += std::clamp(-by / normal.z, -most, most);
+  }
+}
+
 template <class Pixel>
 class LargeCluster {
  public:
@@ -117,8 +138,11 @@ class LargeCluster {
     return row.x * p.x + row.y * p.y + row.z * p.z + row.w;
   }
 
-  /// A pixel coordinate in sub-pixels, to the nearest.
-  static std::int64_t rounded(double pixel) { return std::llrint(pixel * kSubpixels); }
+  /// In sub-pixels, rounded to the nearest.
+  static Point point(const glm::dvec2& pixel, double depth) {
+    const glm::dvec2 exact = pixel * static_cast<double>(kSubpixels);
+    return {std::llrint(exact.x), std::llrint(exact.y), depth, exact.x, exact.y};
+  }
 
   bool in_reach(const glm::vec2& pixel) const {
     return std::abs(pixel.x - half_width_) < kReach && std::abs(pixel.y - half_height_) < kReach;
@@ -139,7 +163,7 @@ class LargeCluster {
       const glm::vec2 pixel(clip.x * half_width_ + half_width_,
                             clip.y * half_height_ + half_height_);
       if (!in_reach(pixel)) return false;
-      points[i] = {rounded(pixel.x), rounded(pixel.y), depth};
+      points[i] = point(pixel, depth);
     }
     return true;
   }
@@ -169,18 +193,19 @@ class LargeCluster {
     polygon = clipped(polygon, [&](const ClipPoint& p) { return down * p.w - p.y; });
     polygon = clipped(polygon, [&](const ClipPoint& p) { return down * p.w + p.y; });
     for (std::size_t i = 2; i < polygon.count; ++i) {
-      fill(rounded(polygon.corners[0]), rounded(polygon.corners[i - 1]),
-           rounded(polygon.corners[i]));
+      fill(point(polygon.corners[0]), point(polygon.corners[i - 1]), point(polygon.corners[i]));
     }
   }
 
-  Point rounded(const ClipPoint& corner) const {
-    return {rounded(corner.x / corner.w * half_width_ + half_width_),
-            rounded(corner.y / corner.w * half_height_ + half_height_),
-            projection_.perspective ? 1.0 / corner.w : corner.z};
+  Point point(const ClipPoint& corner) const {
+    return point({corner.x / corner.w * half_width_ + half_width_,
+                  corner.y / corner.w * half_height_ + half_height_},
+                 projection_.perspective ? 1.0 / corner.w : corner.z);
   }
 
-  void fill(const Point& a, Point b, Point c) const {
+  void fill(Point a, Point b, Point c) const {
+    if constexpr (sizeof(Pixel) == sizeof(std::int64_t))
+      stay_on_plane(a, b, c, projection_.perspective);
     std::int64_t area = edge_at(a, b, c.x, c.y);
     // Front faces are counter-clockwise, which has a negative area where y points down.
     const bool front = area < 0;
@@ -224,6 +249,9 @@ class LargeCluster {
     const float depth_mm = depth - projection_.start_mm;
     if constexpr (std::is_same_v<Pixel, std::int32_t>) {
       if (depth_mm > draw_.ends->of_pixels_mm[at]) pixel += front ? -1 : 1;
+    } else if constexpr (std::is_same_v<Pixel, std::int64_t>) {
+      const std::int64_t steps = steps_at(at, depth_mm);
+      pixel += front && draw_.brightness.is_signed ? -steps : steps;
     } else {
       if (!shows(at, depth_mm)) return;
       pixel = std::max(pixel, value_at(depth));
@@ -232,6 +260,18 @@ class LargeCluster {
 
   bool shows(std::int64_t at, float depth_mm) const {
     return draw_.ends == nullptr || (depth_mm >= 0.0F && depth_mm <= draw_.ends->of_pixels_mm[at]);
+  }
+
+  /// What a crossing adds to a sum, or takes off.
+  std::int64_t steps_at(std::int64_t at, float depth_mm) const {
+    const Brightness<std::int64_t>& steps = draw_.brightness;
+    if (draw_.ends != nullptr && steps.is_signed) {
+      depth_mm = std::max(std::min(depth_mm, draw_.ends->of_pixels_mm[at]), 0.0F);
+    } else if (!shows(at, depth_mm)) {
+      return 0;
+    }
+    return static_cast<std::int64_t>(steps.constant +
+                                     depth_mm * (steps.linear + steps.square * depth_mm));
   }
 
   Pixel value_at(float depth) const {
@@ -270,6 +310,8 @@ template void draw_large_cluster(const ClusterDraw<float>&, const ClusterProject
                                  const PixelTarget<float>&);
 template void draw_large_cluster(const ClusterDraw<std::int32_t>&, const ClusterProjection&,
                                  const PixelTarget<std::int32_t>&);
+template void draw_large_cluster(const ClusterDraw<std::int64_t>&, const ClusterProjection&,
+                                 const PixelTarget<std::int64_t>&);
 template void draw_large_cluster(const ClusterDraw<std::uint64_t>&, const ClusterProjection&,
                                  const PixelTarget<std::uint64_t>&);
 

@@ -10,11 +10,13 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <glm/geometric.hpp>
 #include <limits>
 #include <span>
 #include <type_traits>
 
 #include "render/cpu/large_triangles.h"
+#include "render/cpu/sum_steps.h"
 #include "render/cpu/thread_pixels.h"
 #include "render/cpu/tile_ends.h"
 #include "render/projection.h"
@@ -50,17 +52,18 @@ ClusterProjection projection_of(const Camera& camera, const RayFrame& rays, doub
   return projection;
 }
 
-/// What a shell of the plan shines with.
+/// What a shell of a cued maximum shines with.
+Brightness<float> emission_of(const ShellDraw& draw) {
+  return {static_cast<float>(draw.value_at_near), static_cast<float>(draw.value_at_far)};
+}
+
+/// What shells of the plan's other maxima do.
 template <class Pixel>
-Brightness<Pixel> brightness_of(const ShellDraw& draw, const Plan& plan) {
-  if constexpr (std::is_same_v<Pixel, float>) {
-    return {static_cast<float>(draw.value_at_near), static_cast<float>(draw.value_at_far)};
-  } else if constexpr (std::is_same_v<Pixel, std::int32_t>) {
-    return {};
-  } else {
-    const auto ranks = static_cast<double>(plan.emission_of_rank.size() - 1);
-    return {static_cast<Pixel>(std::lround(draw.depth_at_near * ranks))};
-  }
+auto rank_of(const Plan& plan) {
+  const auto ranks = static_cast<double>(plan.emission_of_rank.size() - 1);
+  return [ranks](const ShellDraw& draw) {
+    return Brightness<Pixel>{static_cast<Pixel>(std::lround(draw.depth_at_near * ranks))};
+  };
 }
 
 bool is_cut(const ShellDraw& draw) { return draw.cut_by_slab || draw.tools != ToolCut::None; }
@@ -68,7 +71,8 @@ bool is_cut(const ShellDraw& draw) { return draw.cut_by_slab || draw.tools != To
 /// Whether some rays of the plan have ends that matter.
 bool needs_ends(const Plan& plan) {
   return std::any_of(plan.passes.begin(), plan.passes.end(), [](const Pass& pass) {
-    return pass.kind != PassKind::MaxDepth ||
+    return pass.kind == PassKind::ToolLayer || pass.kind == PassKind::StartCounts ||
+           pass.kind == PassKind::EndCounts ||
            std::any_of(pass.draws.begin(), pass.draws.end(), is_cut);
   });
 }
@@ -152,7 +156,9 @@ class PlanDrawing::Targets {
       switch (pass.kind) {
         case PassKind::ToolLayer: draw_tools(pass, scene, tile, *picture.tools); break;
         case PassKind::StartCounts:
-        case PassKind::EndCounts: draw_counts(plan, pass, scene, tile, picture.volume); break;
+        case PassKind::EndCounts: draw_counts(pass, scene, tile, picture.volume); break;
+        case PassKind::Sum:
+        case PassKind::Count: draw_sums(pass, scene, tile, picture.volume); break;
         default: draw_max(plan, pass, scene, tile, picture.volume);
       }
     }
@@ -189,23 +195,23 @@ class PlanDrawing::Targets {
       for (std::size_t x = 0; x < ranks.size(); ++x) out[x] = plan.emission_of_rank[ranks[x]];
     };
     if (plan.depth_scale > 0.0) {
-      draw_shells(plan, pass, scene, tile, cued_);
+      draw_shells(pass, scene, tile, emission_of, cued_);
       cued_.merge([&](int y, std::span<const float> emissions) {
         std::copy(emissions.begin(), emissions.end(), &image.at(tile.rect.x, tile.rect.y + y));
       });
     } else if (plan.emission_of_rank.size() <= std::numeric_limits<std::uint8_t>::max() + 1U) {
-      draw_shells(plan, pass, scene, tile, bytes_);
+      draw_shells(pass, scene, tile, rank_of<std::uint8_t>(plan), bytes_);
       bytes_.merge(show_ranks);
     } else {
-      draw_shells(plan, pass, scene, tile, words_);
+      draw_shells(pass, scene, tile, rank_of<std::uint16_t>(plan), words_);
       words_.merge(show_ranks);
     }
   }
 
-  void draw_counts(const Plan& plan, const Pass& pass, const SceneMeshes& scene, const Tile& tile,
-                   Image& image) {
+  void draw_counts(const Pass& pass, const SceneMeshes& scene, const Tile& tile, Image& image) {
     const bool at_end = pass.kind == PassKind::EndCounts;
-    draw_shells(plan, pass, scene, tile, counts_);
+    const auto number = [](const ShellDraw&) { return Brightness<std::int32_t>{}; };
+    draw_shells(pass, scene, tile, number, counts_);
     counts_.merge([&](int y, std::span<const std::int32_t> counted) {
       const std::vector<float> counts(counted.begin(), counted.end());
       raise_to_ray_ends(counts, pass.emission_of_count, ends_.row(y), tile.rays, at_end,
@@ -213,19 +219,33 @@ class PlanDrawing::Targets {
     });
   }
 
-  template <class Pixel>
-  void draw_shells(const Plan& plan, const Pass& pass, const SceneMeshes& scene, const Tile& tile,
-                   ThreadPixels<Pixel>& target) {
+  void draw_sums(const Pass& pass, const SceneMeshes& scene, const Tile& tile, Image& image) {
+    const SumSteps steps(pass, scene, tile.rays);
+    draw_shells(
+        pass, scene, tile, [&](const ShellDraw& draw) { return steps.of(draw); }, sums_);
+    sums_.merge([&](int y, std::span<const std::int64_t> sums) {
+      float* out = &image.at(tile.rect.x, tile.rect.y + y);
+      for (std::size_t x = 0; x < sums.size(); ++x) {
+        const glm::dvec2 pixel(static_cast<double>(x) + 0.5, y + 0.5);
+        const double way = steps.is_integral() ? glm::length(local_way(tile.rays, pixel)) : 1.0;
+        out[x] = static_cast<float>(static_cast<double>(sums[x]) * steps.step() * way);
+      }
+    });
+  }
+
+  /// @param brightness  of a `ShellDraw`
+  template <class Pixel, class BrightnessOf>
+  void draw_shells(const Pass& pass, const SceneMeshes& scene, const Tile& tile,
+                   const BrightnessOf& brightness, ThreadPixels<Pixel>& target) {
     const bool at_start = pass.kind == PassKind::StartCounts;
     const RayEnds ends = at_start ? ends_.starts() : ends_.ends();
     std::vector<std::vector<ClusterDraw<Pixel>>> tasks;
     for (const ShellDraw& draw : brightest_first(pass.draws)) {
       const bool cut = std::is_same_v<Pixel, std::int32_t> || is_cut(draw);
-      add_tasks<Pixel>(*scene.shells[draw.shell],
-                       {.faces = draw.faces,
-                        .brightness = brightness_of<Pixel>(draw, plan),
-                        .ends = cut ? &ends : nullptr},
-                       tasks.emplace_back());
+      add_tasks<Pixel>(
+          *scene.shells[draw.shell],
+          {.faces = draw.faces, .brightness = brightness(draw), .ends = cut ? &ends : nullptr},
+          tasks.emplace_back());
     }
     run(part_by_part(tasks), tile, target);
   }
@@ -261,8 +281,8 @@ class PlanDrawing::Targets {
   }
 
   std::size_t bytes() const {
-    return bytes_.bytes() + words_.bytes() + cued_.bytes() + counts_.bytes() + nearest_.bytes() +
-           ends_.bytes();
+    return bytes_.bytes() + words_.bytes() + cued_.bytes() + counts_.bytes() + sums_.bytes() +
+           nearest_.bytes() + ends_.bytes();
   }
 
   InstructionSet instructions_;
@@ -270,6 +290,7 @@ class PlanDrawing::Targets {
   ThreadPixels<std::uint16_t> words_;
   ThreadPixels<float> cued_;
   ThreadPixels<std::int32_t> counts_;
+  ThreadPixels<std::int64_t> sums_;
   ThreadPixels<std::uint64_t> nearest_;
   TileEnds ends_;
   FrameStats stats_;

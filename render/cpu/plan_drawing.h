@@ -21,8 +21,8 @@ struct SceneMeshes {
   const ToolMeshes* tools = nullptr;
 };
 
-/// Draws plans of maximum projections on all threads of the calling TBB arena. Keeps its targets
-/// from picture to picture.
+/// Draws plans of maximum projections, sums and counts on all threads of the calling TBB arena.
+/// Keeps its targets from picture to picture.
 class PlanDrawing {
  public:
   explicit PlanDrawing(InstructionSet instructions);

@@ -24,7 +24,7 @@ constexpr int kRowsPerTask = 16;
 template <class Pixel>
 void merge_row(std::span<Pixel> into, std::span<const Pixel> from) {
   for (std::size_t x = 0; x < into.size(); ++x) {
-    if constexpr (std::is_same_v<Pixel, std::int32_t>) {
+    if constexpr (std::is_signed_v<Pixel> && std::is_integral_v<Pixel>) {
       into[x] += from[x];
     } else {
       into[x] = std::max(into[x], from[x]);
@@ -115,6 +115,7 @@ template class ThreadPixels<std::uint8_t>;
 template class ThreadPixels<std::uint16_t>;
 template class ThreadPixels<float>;
 template class ThreadPixels<std::int32_t>;
+template class ThreadPixels<std::int64_t>;
 template class ThreadPixels<std::uint64_t>;
 
 }  // namespace nacre

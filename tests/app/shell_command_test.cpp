@@ -98,9 +98,11 @@ TEST_F(ShellCommand, RenderShowsTheExactPictureToHalfALayer) {
   EXPECT_EQ(nacre("compare shells.tif exact.tif --max-rmse 0.06").status, 0);
 }
 
-TEST_F(ShellCommand, TheProcessorDrawsMaximaAsOpenGlDoes) {
+TEST_F(ShellCommand, TheProcessorDrawsAsOpenGlDoes) {
   require_backend();
-  for (const std::string how : {"", " --slab=-3,2", " --cue=-0.5,1,0 --slab=-3,2"}) {
+  for (const std::string how :
+       {"", " --slab=-3,2", " --cue=-0.5,1,0 --slab=-3,2", " --mode sum", " --mode count",
+        " --mode sum --cue=-0.5,1,0 --slab=-3,2", " --mode count --slab=-3,2"}) {
     const std::string render = "render ball.glb --size 64x64 --azimuth 30" + how + " --backend ";
     ASSERT_EQ(nacre(render + "cpu -o ours.tif").status, 0);
     const bool osmesa = nacre(render + "osmesa -o theirs.tif").status == 0;
@@ -110,7 +112,10 @@ TEST_F(ShellCommand, TheProcessorDrawsMaximaAsOpenGlDoes) {
 }
 
 TEST_F(ShellCommand, TheProcessorSaysWhatItDoesNotDraw) {
-  expect_refusal("render ball.glb --backend cpu --mode sum -o a.tif", 4, "maximum projections");
+  expect_refusal("render ball.glb --backend cpu --mode iso -o a.tif", 4,
+                 "maximum projections, sums and counts");
+  expect_refusal("render ball.glb --backend cpu --mode sum --target 16f -o a.tif", 4,
+                 "found target 16f, expected 32f");
   expect_refusal("render ball.glb --backend vulkan -o a.tif", 2,
                  "expected auto, egl, osmesa or cpu");
 }

@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <random>
 #include <vector>
 
@@ -132,7 +135,13 @@ TEST(CpuCoverage, BothWaysAndAllInstructionsCutTheSame) {
     const auto rank = left_of<std::uint8_t>(mesh, Way::Baseline, {3}, &ends);
     const auto cued = left_of<float>(mesh, Way::Baseline, {1.0F, 0.5F}, &ends);
     const auto count = left_of<std::int32_t>(mesh, Way::Baseline, {}, &ends);
+    const Brightness<std::int64_t> integral{0.0F, 1000.0F, 30.0F, true};
+    const auto sum = left_of<std::int64_t>(mesh, Way::Baseline, integral, &ends);
+    const auto sum_large = left_of<std::int64_t>(mesh, Way::Large, integral, &ends);
+    ASSERT_EQ(left_of<std::int64_t>(mesh, Way::Best, integral, &ends), sum);
+    const auto crossings = left_of<std::int64_t>(mesh, Way::Baseline, {5.0F}, &ends);
     for (const Way way : {Way::Best, Way::Large}) {
+      ASSERT_EQ(left_of<std::int64_t>(mesh, way, {5.0F}, &ends), crossings);
       ASSERT_EQ(left_of<std::uint8_t>(mesh, way, {3}, &ends), rank);
       ASSERT_EQ(left_of<std::int32_t>(mesh, way, {}, &ends), count);
     }
@@ -150,6 +159,10 @@ TEST(CpuCoverage, BothWaysAndAllInstructionsCutTheSame) {
       const bool between = seen.depth_mm >= 0.0F && seen.depth_mm <= ends_mm[p];
       ASSERT_EQ(rank[p], between ? 3 : 0);
       ASSERT_EQ(count[p] != 0, seen.depth_mm > ends_mm[p]);
+      ASSERT_EQ(crossings[p], between ? 5 : 0);
+      const double d = std::clamp<double>(seen.depth_mm, 0.0, std::max(ends_mm[p], 0.0F));
+      ASSERT_NEAR(std::abs(static_cast<double>(sum[p])), d * (1000.0 + 30.0 * d), 1.5);
+      ASSERT_NEAR(static_cast<double>(sum_large[p]), static_cast<double>(sum[p]), 1.5);
       ranks += rank[p] != 0 ? 1U : 0U;
       counted += count[p] != 0 ? 1U : 0U;
     }
@@ -194,6 +207,58 @@ TEST(CpuCoverage, EveryPixelHoldsTheBrighterOfBoth) {
     }
   }
   EXPECT_GT(raised, 1000U);
+}
+
+/// The depth of a triangle's plane at a point, in double.
+double plane_depth(const Corners& corners, const glm::dvec3& depths, const glm::dvec2& at) {
+  const glm::dvec3 a(corners[0], depths[0]);
+  const glm::dvec3 normal =
+      glm::cross(glm::dvec3(corners[1], depths[1]) - a, glm::dvec3(corners[2], depths[2]) - a);
+  return a.z - glm::dot(glm::dvec2(normal), at - glm::dvec2(a)) / normal.z;
+}
+
+// Corners are rounded to 1/256 of a pixel, depths of sums are not: the plane stays where it is. A
+// sliver's depth stays near those of its corners.
+TEST(CpuCoverage, SumsTakeTheDepthOfTheTriangleAsItWas) {
+  std::mt19937 random(4);
+  std::uniform_real_distribution<float> place(0.0F, kSide);
+  std::uniform_real_distribution<float> depth(10.0F, 90.0F);
+  std::uniform_real_distribution<float> wide(0.0F, 0.01F);
+  constexpr float kSteps = 1e6F;
+  const Brightness<std::int64_t> integral{0.0F, kSteps, 0.0F, true};
+  std::size_t on_plane = 0;
+  std::size_t slivers = 0;
+  for (int i = 0; i < 10000; ++i) {
+    Corners corners{glm::vec2(place(random), place(random)), {place(random), place(random)}, {}};
+    const bool sliver = i % 2 == 0;
+    corners[2] = sliver ? 0.5F * (corners[0] + corners[1]) + glm::vec2(wide(random), wide(random))
+                        : glm::vec2(place(random), place(random));
+    const glm::vec3 depths(depth(random), depth(random), depth(random));
+    const MeshClusters mesh = clusters_of(corners, depths);
+    const auto sum = left_of<std::int64_t>(mesh, Way::Baseline, integral, nullptr);
+    ASSERT_EQ(left_of<std::int64_t>(mesh, Way::Best, integral, nullptr), sum);
+    const auto large = left_of<std::int64_t>(mesh, Way::Large, integral, nullptr);
+    const auto [least, greatest] = std::minmax({depths[0], depths[1], depths[2]});
+    const float beyond = 0.26F * (greatest - least);
+    const glm::dvec2 u(corners[1] - corners[0]);
+    const glm::dvec2 v(corners[2] - corners[0]);
+    const bool fat = std::abs(u.x * v.y - u.y * v.x) > 8.0 * kSide;
+    for (std::size_t p = 0; p < sum.size(); ++p) {
+      if (sum[p] == 0) continue;
+      const double crossing = std::abs(static_cast<double>(sum[p])) / kSteps;
+      ASSERT_GE(crossing, least - beyond);
+      ASSERT_LE(crossing, greatest + beyond);
+      slivers += sliver ? 1U : 0U;
+      if (!fat) continue;
+      const glm::dvec2 center(static_cast<double>(p % kSide) + 0.5,
+                              static_cast<double>(p / kSide) + 0.5);
+      ASSERT_NEAR(crossing, plane_depth(corners, depths, center), 2e-4);
+      ASSERT_NEAR(std::abs(static_cast<double>(large[p])) / kSteps, crossing, 2e-4);
+      ++on_plane;
+    }
+  }
+  EXPECT_GT(on_plane, 10000U);
+  EXPECT_GT(slivers, 100U);
 }
 
 TEST(CpuCoverage, NearerTrianglesHaveGreaterKeys) {

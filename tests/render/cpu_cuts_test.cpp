@@ -6,10 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <glm/gtc/matrix_transform.hpp>
 #include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "core/error.h"
@@ -23,29 +21,6 @@ namespace nacre::testing {
 namespace {
 
 const std::array<DepthCue, 3> kCues{{{}, {0.8, 0.2, 0.0}, {-0.7, 0.9, 0.0}}};
-
-Tool tool_of(TriangleMesh mesh, const glm::dvec3& at, const glm::vec3& color) {
-  return {"tool", std::move(mesh), glm::translate(glm::dmat4(1.0), at), color};
-}
-
-/// A ball at a place along the view, in parts of the radius, and a rod across it.
-std::vector<std::vector<Tool>> tools_about(const BoundingSphere& sphere, const Camera& camera) {
-  const double radius = sphere.radius_mm;
-  const auto ball = [&](double along) {
-    return tool_of(ball_mesh({}, 0.25 * radius, 12),
-                   sphere.center_mm + camera.forward * (along * radius), {0.3F, 0.7F, 1.0F});
-  };
-  const double thin = 0.03 * radius;
-  const Tool rod = tool_of(block_mesh({-radius, -thin, -thin}, {0.6 * radius, thin, thin}),
-                           sphere.center_mm, {1.0F, 0.5F, 0.2F});
-  return {{ball(-1.2)}, {ball(0.0)}, {ball(1.2)}, {ball(0.2), rod}};
-}
-
-std::vector<Slab> slabs(double radius) {
-  return {{.near_mm = -0.15 * radius},
-          {.far_mm = 0.2 * radius},
-          {.near_mm = -0.1 * radius, .far_mm = 0.15 * radius}};
-}
 
 Picture draw(const ShellSet& set, std::span<const Tool> tools, const Camera& camera,
              const RenderOptions& options, const CpuOptions& how = {}) {

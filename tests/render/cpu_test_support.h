@@ -1,10 +1,13 @@
 #pragma once
 
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <vector>
 
 #include "core/camera.h"
+#include "core/picture.h"
 #include "core/shell_set.h"
+#include "core/tool.h"
 #include "core/volume_geometry.h"
 
 namespace nacre::testing {
@@ -19,5 +22,14 @@ Scan small_angiogram();
 
 /// Orthographic, zoomed, perspective, and from within.
 std::vector<Camera> cameras(const BoundingSphere& sphere, const glm::ivec2& size);
+
+/// A tool that is moved to a place.
+Tool tool_of(TriangleMesh mesh, const glm::dvec3& at, const glm::vec3& color);
+
+/// A ball at a place along the view, in parts of the radius, and a rod across it.
+std::vector<std::vector<Tool>> tools_about(const BoundingSphere& sphere, const Camera& camera);
+
+/// Slabs that start, end, or do both within the sphere.
+std::vector<Slab> slabs(double radius_mm);
 
 }  // namespace nacre::testing

@@ -140,14 +140,29 @@ TEST_F(SmallMeasurement, StopsAtItsBudgetAfterOnePassAtLeast) {
 }
 
 TEST_F(SmallMeasurement, WhatABackendRefusesIsLeftOutWithTheReason) {
-  options_.methods = {{.id = "sum",
-                       .part = "sum",
-                       .subject = {.mode = PictureMode::Sum},
-                       .shells = ShellRecipe{{3}},
+  const LevelChoice half{.uniform = 0, .single = 0.5};
+  options_.methods = {{.id = "iso",
+                       .part = "iso",
+                       .subject = {.mode = PictureMode::Iso, .levels = half},
+                       .shells = ShellRecipe{half},
                        .backend = "cpu"}};
   const MeasurementResult result = run();
   EXPECT_NE(result.rows.front().left_out, "");
   EXPECT_EQ(result.rows.front().frame_seconds.samples, 0);
+}
+
+TEST_F(SmallMeasurement, TheProcessorsSumsAndCountsAreMeasured) {
+  const std::vector<std::string> only{"sum", "count"};
+  options_.methods = report_methods({.quick = true, .only = only});
+  std::erase_if(options_.methods, [](const Method& method) {
+    return method.backend != "cpu" && method.backend != "exact";
+  });
+  std::set<std::string> drawn;
+  for (const Measured& row : run().rows) {
+    EXPECT_EQ(row.left_out, "") << row.method.id;
+    if (row.method.shells) drawn.insert(row.method.id);
+  }
+  EXPECT_EQ(drawn, (std::set<std::string>{"count-12-cpu", "sum-12-cpu", "sum-24-cpu"}));
 }
 
 TEST_F(SmallMeasurement, PageStandsAloneAndNamesEveryRow) {
