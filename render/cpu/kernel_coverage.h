@@ -78,7 +78,10 @@ struct Source<std::int64_t> {
   Ints negative;  // -1: taken off
 
   Ints at(const Floats& depth) const {
-    const Ints steps = __builtin_convertvector(steps_at(depth - start_mm), Ints);
+    // Lanes beside their triangle may have any depth.
+    const Floats limit = Floats{} + 0x1.fffffep30F;
+    const Floats bounded = least(greatest(steps_at(depth - start_mm), -limit), limit);
+    const Ints steps = __builtin_convertvector(bounded, Ints);
     return (steps ^ negative) - negative;
   }
 
