@@ -20,6 +20,10 @@ using nlohmann::ordered_json;
 
 double psnr_db(double rmse) { return -20.0 * std::log10(rmse); }
 
+const char* name_of(ToleranceWeight weight) {
+  return weight == ToleranceWeight::Picture ? kPictureWeight : kFieldWeight;
+}
+
 LadderOptions held_by(const ShellFlags& flags, const EmissionMap& emission, Budget::Unit unit,
                       const std::string& placement) {
   LadderOptions held;
@@ -29,6 +33,9 @@ LadderOptions held_by(const ShellFlags& flags, const EmissionMap& emission, Budg
     held.levels = levels_of(flags, emission).size();
   }
   held.tolerance = flags.tolerance;
+  const bool is_field = flags.tolerance_weight.empty() ? flags.tolerance.has_value()
+                                                       : flags.tolerance_weight == kFieldWeight;
+  held.weight = is_field ? ToleranceWeight::Field : ToleranceWeight::Picture;
   if (flags.quantization > 0) held.bits = flags.quantization;
   return held;
 }
@@ -40,6 +47,7 @@ ShellFlags flags_of(const ShellFlags& flags, const BudgetCandidate& candidate) {
   }
   tried.placement = candidate.placement;
   tried.tolerance = candidate.tolerance;
+  tried.tolerance_weight = name_of(candidate.weight);
   tried.quantization = candidate.bits;
   return tried;
 }
@@ -144,9 +152,13 @@ ordered_json trade_json(const Budget& budget, const BudgetTrade& trade) {
   ordered_json trials = ordered_json::array();
   for (std::size_t i = 0; i < trade.trials.size(); ++i) {
     const BudgetTrial& trial = trade.trials[i];
-    ordered_json row{{"levels", trial.candidate.levels}, {"tolerance", trial.candidate.tolerance},
-                     {"bits", trial.candidate.bits},     {"triangles", trial.size.triangles},
-                     {"bytes", trial.size.bytes},        {"fits", trial.rmse.has_value()},
+    ordered_json row{{"levels", trial.candidate.levels},
+                     {"tolerance", trial.candidate.tolerance},
+                     {"tolerance_weight", name_of(trial.candidate.weight)},
+                     {"bits", trial.candidate.bits},
+                     {"triangles", trial.size.triangles},
+                     {"bytes", trial.size.bytes},
+                     {"fits", trial.rmse.has_value()},
                      {"chosen", trade.chosen == i}};
     if (trial.rmse) {
       row["rmse"] = *trial.rmse;

@@ -83,6 +83,7 @@ BuildOptions build_options(const ShellFlags& flags, const glm::dmat4& world_from
   set_copies(options, flags);
   options.placement = std::move(levels.placement);
   options.emission_tolerance = flags.tolerance.value_or(0.0);
+  if (flags.tolerance_weight == kPictureWeight) options.tolerance_weight = ToleranceWeight::Picture;
   options.tolerance_mm = flags.tolerance_mm;
   options.quantization_bits = flags.quantization;
   if (!flags.keep_specks) {

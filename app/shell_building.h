@@ -17,9 +17,14 @@ namespace nacre {
 inline constexpr const char* kAutoCopies = "auto";
 inline constexpr const char* kNoCopies = "none";
 
+/// Values of --tolerance-weight.
+inline constexpr const char* kFieldWeight = "field";
+inline constexpr const char* kPictureWeight = "picture";
+
 /// Which shells to make of a volume, as flags say it.
 struct ShellFlags : LevelFlags {
   std::optional<double> tolerance;      ///< emission; 0 or none: no simplification
+  std::string tolerance_weight;         ///< field or picture; empty: chosen
   double tolerance_mm = 0.0;            ///< mm; 0: none
   int quantization = 0;                 ///< bits; 0: chosen
   std::optional<double> min_component;  ///< mm^3; none: chosen
@@ -28,7 +33,8 @@ struct ShellFlags : LevelFlags {
   std::string coarse = kNoCopies;  ///< auto, none, or the emission error of coarse copies
 };
 
-/// Adds the flags of levels, --tolerance, --tolerance-mm, --quantization, --min-component,
+/// Adds the flags of levels, --tolerance, --tolerance-weight, --tolerance-mm, --quantization,
+/// --min-component,
 /// --keep-specks and --purpose.
 void add_shell_flags(CLI::App& verb, ShellFlags& flags);
 

@@ -48,6 +48,14 @@ void add_shell_flags(CLI::App& verb, ShellFlags& flags) {
                   "Emission error a simplified surface may have (0: no simplification)")
       ->check(finite_from_zero(1.0, "an emission from 0 to 1"))
       ->group(group);
+  verb.add_option(
+          "--tolerance-weight", flags.tolerance_weight,
+          "Where --tolerance may be used up. field: everywhere; picture: where the field is "
+          "steep, 1/3 of it at a shell's mean slope, down to 1/9 where maximum projections "
+          "show more of an error (default: field, and picture for a --budget that chooses "
+          "the tolerance)")
+      ->check(CLI::IsMember({kFieldWeight, kPictureWeight}))
+      ->group(group);
   verb.add_option("--tolerance-mm", flags.tolerance_mm,
                   "MM a simplified surface may be off the extracted one (0: no simplification)")
       ->check(finite_from_zero(std::numeric_limits<double>::max(), "millimetres, 0 or more"))

@@ -54,6 +54,7 @@ class Comparison {
     BuildOptions options;
     options.levels = uniform_levels(candidate.levels);
     options.emission_tolerance = candidate.tolerance;
+    options.tolerance_weight = candidate.weight;
     options.quantization_bits = candidate.bits;
     options.min_component_mm3 = default_speck_mm3(volume_.world_from_voxel);
     ShellSet set = build_shells(volume_, emission_, options).set;
@@ -63,7 +64,7 @@ class Comparison {
       bytes[k] = compress_shell(TriangleMesh(set.shells[k].surface), *set.grid).bytes.size();
     });
     add(set, bytes, start,
-        {kOurs, fmt::format("{} levels, tolerance {}, {} bits", candidate.levels,
+        {kOurs, fmt::format("{} levels, tolerance {:.3g}, {} bits", candidate.levels,
                             candidate.tolerance, candidate.bits)});
   }
 

@@ -5,12 +5,14 @@
 #include <limits>
 #include <utility>
 
+#include "shells/picture_weight.h"
 #include "shells/quantization.h"
 
 namespace nacre {
 namespace {
 
-/// A candidate for any volume: the grid's step is a part of the smallest spacing.
+/// A candidate for any volume: the tolerance is that at a shell's mean slope, the grid's step a
+/// part of the smallest spacing.
 struct Rung {
   std::size_t levels;
   double tolerance;
@@ -45,11 +47,17 @@ double step_for(double tolerance) {
   return tolerance > 0.019 ? kFineStep : kFinestStep;
 }
 
+/// How much larger a tolerance is than what it leaves at a shell's mean slope.
+double spread(ToleranceWeight weight) {
+  return weight == ToleranceWeight::Picture ? kMeanWeight : 1.0;
+}
+
 std::vector<Rung> rungs_for(const LadderOptions& options) {
   std::vector<Rung> rungs;
+  const double held = options.tolerance.value_or(0.0) / spread(options.weight);
   if (options.levels && options.tolerance) {
     for (const double step : {kCoarseStep, kMiddleStep, kFineStep, kFinestStep}) {
-      rungs.push_back({*options.levels, *options.tolerance, step});
+      rungs.push_back({*options.levels, held, step});
     }
   } else if (options.levels) {
     for (const double tolerance : kTolerances) {
@@ -57,7 +65,7 @@ std::vector<Rung> rungs_for(const LadderOptions& options) {
     }
   } else if (options.tolerance) {
     for (const std::size_t levels : kLevels) {
-      rungs.push_back({levels, *options.tolerance, step_for(*options.tolerance)});
+      rungs.push_back({levels, held, step_for(held)});
     }
   } else {
     rungs.assign(kRungs.begin(), kRungs.end());
@@ -90,8 +98,10 @@ std::vector<BudgetCandidate> budget_ladder(const glm::i64vec3& dims,
   for (const Rung& rung : rungs_for(options)) {
     const double step = options.unit == Budget::Unit::Triangles ? kFinestStep : rung.step_spacings;
     const BudgetCandidate candidate{
-        rung.levels, rung.tolerance,
-        options.bits ? *options.bits : bits_for(dims, world_from_voxel, step), options.placement};
+        rung.levels,
+        options.tolerance.value_or(std::min(spread(options.weight) * rung.tolerance, 1.0)),
+        options.bits ? *options.bits : bits_for(dims, world_from_voxel, step), options.placement,
+        options.weight};
     if (ladder.empty() || !is_same(ladder.back(), candidate)) ladder.push_back(candidate);
   }
   return ladder;

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "shells/build.h"
+
 namespace nacre {
 
 /// What a shell set may take at most.
@@ -25,6 +27,7 @@ struct BudgetCandidate {
   double tolerance = 0.0;             ///< emission, see `BuildOptions::emission_tolerance`
   int bits = 12;                      ///< of a coordinate on the set's grid
   std::string placement = "uniform";  ///< of the levels, see `ShellSet`
+  ToleranceWeight weight = ToleranceWeight::Picture;
 };
 
 /// What a caller has chosen already, in place of what the ladder would try.
@@ -32,7 +35,8 @@ struct LadderOptions {
   std::optional<std::size_t> levels = {};
   std::optional<double> tolerance = {};
   std::optional<int> bits = {};
-  std::string placement = "uniform";        ///< of every candidate
+  std::string placement = "uniform";                  ///< of every candidate
+  ToleranceWeight weight = ToleranceWeight::Picture;  ///< likewise
   Budget::Unit unit = Budget::Unit::Bytes;  ///< triangles cost the same on any grid: the finest
 };
 

@@ -17,6 +17,7 @@
 #include "extract/marching_cubes.h"
 #include "shells/coarsen.h"
 #include "shells/level_field.h"
+#include "shells/picture_weight.h"
 #include "shells/prune.h"
 #include "shells/quantization.h"
 #include "shells/refine.h"
@@ -155,6 +156,24 @@ SimplifyOptions bounds_of(const TrilinearField& field, const Volume& volume, con
   return bounds;
 }
 
+/// Divides a contoured surface where it strays from its level, and simplifies it within what the
+/// options allow; those of `bounds` are what shells have in common.
+TriangleMesh simplify_on_level(const TriangleMesh& contour, const LevelField& off_level,
+                               const BuildOptions& options, SimplifyOptions bounds) {
+  const bool is_weighted = options.tolerance_weight == ToleranceWeight::Picture;
+  bounds.error_tolerance = options.emission_tolerance;
+  bounds.field = off_level;
+  const double at_mean_slope = options.emission_tolerance / (is_weighted ? kMeanWeight : 1.0);
+  const TriangleMesh refined = refine(
+      contour, bounds.field,
+      {.error_tolerance = std::max(at_mean_slope, kFineEnough), .reach_mm = bounds.spacing_mm});
+  if (is_weighted) {
+    bounds.field =
+        PictureWeight(off_level, mean_slope(refined, bounds.field), options.emission_tolerance);
+  }
+  return simplify(refined, bounds);
+}
+
 void simplify_shells(const Volume& volume, const EmissionMap& emission, const BuildOptions& options,
                      std::span<const std::size_t> triangles,
                      const std::function<TriangleMesh(std::size_t)>& source, ShellSet& set) {
@@ -167,21 +186,16 @@ void simplify_shells(const Volume& volume, const EmissionMap& emission, const Bu
     shell.surface = source(k);
     SimplifyOptions bounds = common;
     bounds.tolerance_mm = options.tolerance_mm;
-    if (options.emission_tolerance > 0.0) {
-      bounds.error_tolerance = options.emission_tolerance;
-      bounds.field = LevelField(field, emission, shell.emission);
-    }
     const auto extracted = static_cast<double>(shell.surface.triangles.size());
-    if (bounds.field) {
-      shell.surface = refine(shell.surface, bounds.field,
-                             {.error_tolerance = std::max(options.emission_tolerance, kFineEnough),
-                              .reach_mm = bounds.spacing_mm});
-    }
     // Every shell keeps the same part of its triangles.
     bounds.target_triangles = static_cast<std::size_t>(
         static_cast<double>(options.target_triangles) /
         static_cast<double>(std::max<std::size_t>(extracted_triangles, 1)) * extracted);
-    shell.surface = simplify(shell.surface, bounds);
+    shell.surface =
+        options.emission_tolerance > 0.0
+            ? simplify_on_level(shell.surface, LevelField(field, emission, shell.emission), options,
+                                bounds)
+            : simplify(shell.surface, bounds);
   });
 }
 

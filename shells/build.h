@@ -16,15 +16,22 @@
 
 namespace nacre {
 
+/// How an emission tolerance is used; it bounds the error everywhere in both.
+enum class ToleranceWeight {
+  Field,    ///< all of it, wherever a surface is
+  Picture,  ///< less of it where the field is shallow, and maxima show more of an error
+};
+
 struct BuildOptions {
   std::vector<Level> levels;          ///< strictly ascending
   std::string placement = "uniform";  ///< of `ShellSet`
   double emission_tolerance = 0.0;    ///< of the surfaces; 0: no simplification by it
-  double tolerance_mm = 0.0;          ///< likewise, of their distance
-  std::size_t target_triangles = 0;   ///< for the set, shared out evenly; 0: none
-  int quantization_bits = 0;          ///< 0 chooses, see `choose_grid`
-  double min_component_mm3 = 0.0;     ///< specks are left out, see `PruneOptions`
-  bool prune_inner = false;           ///< components inside their own shell, see `PruneOptions`
+  ToleranceWeight tolerance_weight = ToleranceWeight::Field;
+  double tolerance_mm = 0.0;         ///< likewise, of their distance
+  std::size_t target_triangles = 0;  ///< for the set, shared out evenly; 0: none
+  int quantization_bits = 0;         ///< 0 chooses, see `choose_grid`
+  double min_component_mm3 = 0.0;    ///< specks are left out, see `PruneOptions`
+  bool prune_inner = false;          ///< components inside their own shell, see `PruneOptions`
   /// Emission error of the coarser copies that a simplified set gets beside its shells; 0: none.
   double coarse_tolerance = 0.0;
   /// Only a set of more triangles than this gets them.

@@ -374,6 +374,33 @@ TEST_F(ShellCommand, ABudgetHoldsWhatOtherFlagsName) {
   }
 }
 
+TEST_F(ShellCommand, ATolerancesWeightIsWhatIsAskedAndIsKept) {
+  const std::string build = "build ball.nii --window 0,28 --levels 6 --certificate none ";
+  const auto triangles = [&](const std::string& flags) {
+    const CommandResult result = nacre(build + flags + " -o w.glb --json -");
+    EXPECT_EQ(result.status, 0) << result.errors;
+    EXPECT_EQ(nacre("verify w.glb --volume ball.nii").status, 0) << flags;
+    return json::parse(result.output)["triangles"].get<int>();
+  };
+  const int even = triangles("--tolerance 0.15");
+  EXPECT_EQ(triangles("--tolerance 0.15 --tolerance-weight field"), even);
+  EXPECT_GT(triangles("--tolerance 0.15 --tolerance-weight picture"), even);
+  expect_refusal(build + "--tolerance 0.1 --tolerance-weight much -o w.glb", 2, "tolerance-weight");
+}
+
+TEST_F(ShellCommand, ABudgetWeighsWhatToleranceItChoosesUnlessAsked) {
+  const auto trial = [&](const std::string& flags) {
+    const CommandResult result = nacre(
+        "build ball.nii --window 0,28 --certificate 8x8 --budget 20kB -o b.glb --json - " + flags);
+    EXPECT_EQ(result.status, 0) << result.errors;
+    return json::parse(result.output)["budget"]["trials"].back();
+  };
+  EXPECT_EQ(trial("")["tolerance_weight"], "picture");
+  EXPECT_EQ(trial("--tolerance-weight field")["tolerance_weight"], "field");
+  EXPECT_EQ(trial("--tolerance 0.1")["tolerance_weight"], "field");
+  EXPECT_EQ(trial("--tolerance 0.1 --tolerance-weight picture")["tolerance_weight"], "picture");
+}
+
 TEST_F(ShellCommand, ABudgetGivesTheSameBytesForAnyNumberOfThreads) {
   const std::string build = "build ball.nii --budget 9kB --certificate 20x20";
   ASSERT_EQ(nacre(build + " --threads 1 -o one.glb").status, 0);

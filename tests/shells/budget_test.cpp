@@ -129,6 +129,25 @@ TEST(Budget, TheLadderHoldsWhatIsGiven) {
   EXPECT_EQ(ladder_of({.levels = 7, .tolerance = 0.03, .bits = 13}).size(), 1u);
 }
 
+// A held tolerance stays what it is; its grid is the one that suits what it leaves at the mean
+// slope.
+TEST(Budget, TheLadderWeighsTolerancesForPicturesUnlessAsked) {
+  const std::vector<BudgetCandidate> picture = ladder_of();
+  const std::vector<BudgetCandidate> even = ladder_of({.weight = ToleranceWeight::Field});
+  ASSERT_EQ(picture.size(), even.size());
+  for (std::size_t i = 0; i < even.size(); ++i) {
+    EXPECT_EQ(picture[i].weight, ToleranceWeight::Picture);
+    EXPECT_EQ(even[i].weight, ToleranceWeight::Field);
+    EXPECT_DOUBLE_EQ(picture[i].tolerance, std::min(3.0 * even[i].tolerance, 1.0));
+    EXPECT_EQ(picture[i].bits, even[i].bits);
+  }
+  const BudgetCandidate held = ladder_of({.tolerance = 0.24}).front();
+  const BudgetCandidate held_even =
+      ladder_of({.tolerance = 0.08, .weight = ToleranceWeight::Field}).front();
+  EXPECT_EQ(held.tolerance, 0.24);
+  EXPECT_EQ(held.bits, held_even.bits);
+}
+
 TEST(Budget, TheLadderRisesInLevelsAndFinenessTogether) {
   for (const LadderOptions& options :
        {LadderOptions{}, LadderOptions{.levels = 7}, LadderOptions{.tolerance = 0.03},

@@ -10,6 +10,7 @@
 
 #include "extract/levels.h"
 #include "shells/build.h"
+#include "shells/certificate.h"
 #include "shells/shell_checks.h"
 #include "shells/trilinear_field.h"
 #include "tests/support/dense_error.h"
@@ -53,30 +54,69 @@ void expect_sound(const ShellSet& set) {
 }
 
 BuiltShells build(const Volume& volume, const EmissionMap& emission, std::vector<Level> levels,
-                  double tolerance) {
+                  double tolerance, ToleranceWeight weight = ToleranceWeight::Field) {
   BuildOptions options;
   options.levels = std::move(levels);
   options.emission_tolerance = tolerance;
+  options.tolerance_weight = weight;
   return build_shells(volume, emission, options);
 }
 
-TEST(FieldSimplification, StaysWithinTheToleranceOrWhatContouringLeft) {
+/// Expects a tolerance to be kept, but for what contouring itself leaves.
+void expect_within(double tolerance, ToleranceWeight weight) {
   const Volume volume = vessel();
   const TrilinearField field(volume);
   const EmissionMap emission = EmissionMap::window(20.0, 220.0);
   const BuiltShells plain = build(volume, emission, uniform_levels(4), 0.0);
-  for (const double tolerance : {0.02, 0.06}) {
-    const BuiltShells simple = build(volume, emission, uniform_levels(4), tolerance);
-    expect_sound(simple.set);
-    EXPECT_LT(simple.report.triangles, plain.report.triangles / 2);
-    for (std::size_t k = 0; k < 4; ++k) {
-      const LevelError error(field, emission, plain.set.shells[k].emission);
-      const testing::PointError off_border = error_off_border(field, error);
-      const double left = testing::largest_error(plain.set.shells[k].surface, off_border, kDense);
-      EXPECT_LE(testing::largest_error(simple.set.shells[k].surface, off_border, kDense),
-                std::max(kBetween * tolerance, left))
-          << "shell " << k << ", tolerance " << tolerance;
-    }
+  const BuiltShells simple = build(volume, emission, uniform_levels(4), tolerance, weight);
+  expect_sound(simple.set);
+  EXPECT_LT(simple.report.triangles, plain.report.triangles / 2);
+  for (std::size_t k = 0; k < 4; ++k) {
+    const LevelError error(field, emission, plain.set.shells[k].emission);
+    const testing::PointError off_border = error_off_border(field, error);
+    const double left = testing::largest_error(plain.set.shells[k].surface, off_border, kDense);
+    EXPECT_LE(testing::largest_error(simple.set.shells[k].surface, off_border, kDense),
+              std::max(kBetween * tolerance, left))
+        << "shell " << k << ", tolerance " << tolerance;
+  }
+}
+
+TEST(FieldSimplification, StaysWithinTheToleranceOrWhatContouringLeft) {
+  for (const double tolerance : {0.02, 0.06}) expect_within(tolerance, ToleranceWeight::Field);
+}
+
+TEST(FieldSimplification, WeightedForPicturesItStaysWithinTheToleranceAsWell) {
+  for (const double tolerance : {0.06, 0.18}) expect_within(tolerance, ToleranceWeight::Picture);
+}
+
+/// Squared error of exact maximum projections over a certificate's views.
+double picture_error(const ShellSet& set, const Volume& volume, const EmissionMap& emission) {
+  const CertificateOptions options{.size = {128, 128}, .maxima_only = true};
+  const double rmse = certify(set, volume, emission, options).max.rmse;
+  return rmse * rmse;
+}
+
+/// A steep vessel across a shallow cloud: every shell is of both.
+Volume vessel_in_cloud() {
+  return testing::volume_of<float>({44, 40, 36}, [](auto i, auto j, auto k) {
+    const glm::dvec3 p = glm::dvec3(i, j, k) - glm::dvec3(21.5, 19.5, 17.5);
+    const double across = std::hypot(p.y - 3.0 * std::sin(0.2 * p.x), p.z - 8.0);
+    const double cloud = 150.0 * std::exp(-glm::dot(p, p) / (15.0 * 15.0));
+    return cloud + 200.0 * std::exp(-across * across / (2.5 * 2.5));
+  });
+}
+
+// A contour that is off by as much shows more where the field is shallow.
+TEST(FieldSimplification, WeightedForPicturesNoMoreTrianglesShowMaximaBetter) {
+  const Volume volume = vessel_in_cloud();
+  const EmissionMap emission = EmissionMap::window(20.0, 220.0);
+  for (const double tolerance : {0.03, 0.07}) {
+    const BuiltShells even = build(volume, emission, uniform_levels(8), tolerance);
+    const BuiltShells weighted =
+        build(volume, emission, uniform_levels(8), 3.0 * tolerance, ToleranceWeight::Picture);
+    EXPECT_LE(weighted.report.triangles, even.report.triangles);
+    EXPECT_LT(picture_error(weighted.set, volume, emission),
+              picture_error(even.set, volume, emission));
   }
 }
 
@@ -183,12 +223,14 @@ TEST(FieldSimplification, AVoxelAboveTheLevelIsNotLost) {
 
 TEST(FieldSimplification, IsTheSameForAnyNumberOfThreads) {
   const EmissionMap emission = EmissionMap::window(20.0, 220.0);
-  const ShellSet many = build(vessel(), emission, uniform_levels(5), 0.03).set;
-  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-  const ShellSet single = build(vessel(), emission, uniform_levels(5), 0.03).set;
-  for (std::size_t k = 0; k < many.shells.size(); ++k) {
-    EXPECT_EQ(many.shells[k].surface.positions, single.shells[k].surface.positions);
-    EXPECT_EQ(many.shells[k].surface.triangles, single.shells[k].surface.triangles);
+  for (const ToleranceWeight weight : {ToleranceWeight::Field, ToleranceWeight::Picture}) {
+    const ShellSet many = build(vessel(), emission, uniform_levels(5), 0.03, weight).set;
+    const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+    const ShellSet single = build(vessel(), emission, uniform_levels(5), 0.03, weight).set;
+    for (std::size_t k = 0; k < many.shells.size(); ++k) {
+      EXPECT_EQ(many.shells[k].surface.positions, single.shells[k].surface.positions);
+      EXPECT_EQ(many.shells[k].surface.triangles, single.shells[k].surface.triangles);
+    }
   }
 }
 
