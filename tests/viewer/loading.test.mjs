@@ -135,6 +135,22 @@ test("where they run late for their triangles, a turning picture has fewer shell
   await close(page);
 });
 
+test("less detail that helped once and does no longer is given back", async () => {
+  const page = await opened(address(inFolder("without.html")));
+  await page.evaluate(() => {
+    window.frameCost = () => Number(document.getElementById("status").textContent.match(/\n(\d+)k/)[1]) * 0.6;
+  });
+  await page.click("#cine");
+  await page.evaluate(async () => { // so long that it counts as a help
+    const isLess = () => /1 shell of [2-6]/.test(document.getElementById("status").textContent);
+    for (let frames = 0; frames < 16; frames = isLess() ? frames + 1 : 0) await new Promise(requestAnimationFrame);
+    window.frameCost = () => 50;
+  });
+  await page.waitForFunction(() => /\n88k triangles, 480 × 400$/.test(document.getElementById("status").textContent));
+  await page.click("#cine");
+  await close(page);
+});
+
 test("coarse copies are decoded when frames run late, turn in place of the shells, and give way to them", async () => {
   const levels = surfacesOf(copied);
   const copies = levels.map((level) => level.coarse);

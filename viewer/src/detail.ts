@@ -47,6 +47,8 @@ export class Detail {
   /** The last step, while it is not known whether it helps: what was before it. */
   private trial: { step: Step; amount: Amount; milliseconds: number } | null = null;
   private useless = new Set<Step>();
+  /** What a whole picture is compared with, to see whether less detail still helps. */
+  private present: { amount: Amount; milliseconds: number } | null = null;
   /** Judgements in time, and late ones without a remedy, since detail changed. */
   private calm = 0;
   private stuck = 0;
@@ -59,14 +61,14 @@ export class Detail {
   /** Another set. @param copies  its triangles drawn with its coarse copies, of those without */
   begin(copies: number): void {
     this.amount = { ...whole };
-    [this.times, this.trial, this.useless] = [[], null, new Set()];
+    [this.times, this.trial, this.present, this.useless] = [[], null, null, new Set()];
     [this.calm, this.stuck, this.isTrying, this.patience] = [0, 0, false, leastPatience];
     this.copies = copies;
   }
 
   /** A picture at rest took so long: moving ones need not find out. */
   accountAtRest(milliseconds: number): void {
-    if (!this.isFixed && this.isWhole() && milliseconds > veryLateFrame) this.lessDetail(milliseconds);
+    if (!this.isFixed && this.isWhole() && !this.present && milliseconds > veryLateFrame) this.lessDetail(milliseconds);
   }
 
   account(milliseconds: number): void {
@@ -76,6 +78,7 @@ export class Detail {
     const median = [...this.times].sort((a, b) => a - b)[Math.floor((this.times.length - 1) / 2)];
     this.times = [];
     if (this.trial) this.judge(this.trial, median);
+    if (this.present) this.compare(this.present, median);
     if (median > lateFrame) this.late(median);
     else this.inTime(median);
   }
@@ -100,6 +103,12 @@ export class Detail {
     this.useless.add(trial.step);
   }
 
+  /** Goes back to less detail if the whole picture takes longer by as much as a step has to gain. */
+  private compare(present: NonNullable<Detail["present"]>, median: number): void {
+    this.present = null;
+    if (gain * median > present.milliseconds) this.amount = present.amount;
+  }
+
   private late(median: number): void {
     if (this.isTrying) this.patience = Math.min(2 * this.patience, mostPatience);
     [this.isTrying, this.calm] = [false, 0];
@@ -121,16 +130,22 @@ export class Detail {
       pixels: amount.scale > smallestScale, shells: amount.stride < largestStride,
     };
     const step = (["copies", "pixels", "shells"] as const).find((s) => possible[s] && !this.useless.has(s));
-    if (!step) {
-      this.stuck = (this.stuck + 1) % mostPatience;
-      if (this.stuck === 0) this.useless.clear();
-      return;
-    }
+    if (!step) return this.noStep(milliseconds);
     this.trial = { step, amount, milliseconds };
     this.amount = { ...amount };
     if (step === "copies") this.amount.isCoarse = true;
     else if (step === "pixels") this.amount.scale = clamp(amount.scale * Math.SQRT1_2, smallestScale, 1);
     else this.amount.stride = this.fewerShells(milliseconds);
+  }
+
+  /** Late whatever is left out: perhaps all of it is in vain by now. If not, other steps wait. */
+  private noStep(milliseconds: number): void {
+    if (this.stuck === 0 && !this.isWhole()) {
+      this.present = { amount: this.amount, milliseconds };
+      this.amount = { ...whole };
+    }
+    this.stuck = (this.stuck + 1) % mostPatience;
+    if (this.stuck === 0) this.useless.clear();
   }
 
   /** As many as would be in time, if time goes with triangles. */
