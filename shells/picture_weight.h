@@ -1,6 +1,7 @@
 #pragma once
 
 #include <glm/vec3.hpp>
+#include <utility>
 
 #include "core/triangle_mesh.h"
 #include "shells/level_field.h"
@@ -31,8 +32,10 @@ double mean_slope(const TriangleMesh& surface, const SurfaceField& field);
 class PictureWeight {
  public:
   /// @param mean_slope  of the field over the surface; 0 leaves errors as they are
-  PictureWeight(const LevelField& field, double mean_slope, double tolerance)
-      : field_(field), squared_mean_slope_(mean_slope * mean_slope), tolerance_(tolerance) {}
+  PictureWeight(LevelField field, double mean_slope, double tolerance)
+      : field_(std::move(field)),
+        squared_mean_slope_(mean_slope * mean_slope),
+        tolerance_(tolerance) {}
 
   FieldSample operator()(const glm::dvec3& p_mm) const noexcept;
 
