@@ -59,9 +59,10 @@ CommonFlags quiet_flags() {
 }
 
 std::string words(const BudgetCandidate& candidate) {
-  return fmt::format("{} {} level{}, tolerance {:g}, {} bits", candidate.levels,
-                     candidate.placement, candidate.levels == 1 ? "" : "s", candidate.tolerance,
-                     candidate.bits);
+  return fmt::format(
+      "--levels {} --placement {} --tolerance {} --tolerance-weight {} --quantization {}",
+      candidate.levels, candidate.placement, candidate.tolerance, name_of(candidate.weight),
+      candidate.bits);
 }
 
 /// Builds the candidates of one volume, one after the other, and keeps the best.

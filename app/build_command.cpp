@@ -103,6 +103,7 @@ ordered_json certificate_of(const BuildFlags& flags, const CompressedSet& built,
 /// A budget is for what a scene needs at most, and holds for the file: it has no room for copies.
 /// @throws Error  BadArgument for copies that cannot be, and for a budget with any
 void check_copies(const BuildFlags& flags) {
+  if (flags.budget.empty()) check_tolerance_weight(flags.shells);
   named_copies_tolerance(flags.shells);
   const std::string& coarse = flags.shells.coarse;
   if (flags.budget.empty() || coarse == kAutoCopies || coarse == kNoCopies) return;

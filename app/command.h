@@ -78,7 +78,7 @@ std::size_t peak_rss_bytes();
 void return_large_blocks();
 
 /// From now on keeps freed blocks for later ones, against `return_large_blocks`: for pictures one
-/// after the other, each of which would else be written to fresh pages (a tenth of a fast frame).
+/// after the other, each of which would else be written to fresh pages (a fifth of a fast frame).
 void keep_freed_memory();
 
 /// Gives back what is free all the same.

@@ -10,6 +10,7 @@
 #include "app/build_words.h"
 #include "io/draco_decode.h"
 #include "shells/crossings.h"
+#include "shells/picture_weight.h"
 #include "shells/prune.h"
 
 namespace nacre {
@@ -61,16 +62,18 @@ std::size_t byte_count(const std::vector<CompressedShell>& shells) {
 }
 
 /// 0 where copies would not be much coarser than the shells, or those are not simplified.
-double chosen_tolerance(double own, std::size_t levels) {
+double chosen_tolerance(const ShellFlags& flags, std::size_t levels) {
+  const double own = flags.tolerance.value_or(0.0);
+  const double at_mean_slope = flags.tolerance_weight == kPictureWeight ? own / kMeanWeight : own;
   const double chosen =
       std::min(kCoarseLayers / static_cast<double>(std::max<std::size_t>(levels, 1)), kCoarsest);
-  return own > 0.0 && chosen >= kCoarser * own ? chosen : 0.0;
+  return own > 0.0 && chosen > own && chosen >= kCoarser * at_mean_slope ? chosen : 0.0;
 }
 
 void set_copies(BuildOptions& options, const ShellFlags& flags) {
   options.coarse_tolerance = named_copies_tolerance(flags);
   if (flags.coarse != kAutoCopies) return;
-  options.coarse_tolerance = chosen_tolerance(flags.tolerance.value_or(0.0), options.levels.size());
+  options.coarse_tolerance = chosen_tolerance(flags, options.levels.size());
   options.coarse_above_triangles = kManyTriangles;
 }
 

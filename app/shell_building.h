@@ -38,6 +38,9 @@ struct ShellFlags : LevelFlags {
 /// --keep-specks and --purpose.
 void add_shell_flags(CLI::App& verb, ShellFlags& flags);
 
+/// @throws Error  BadArgument for a --tolerance-weight of no tolerance
+void check_tolerance_weight(const ShellFlags& flags);
+
 /// The emission error that --coarse names; 0 for auto and none.
 /// @throws Error  BadArgument if it is out of range, or shells are not simplified
 double named_copies_tolerance(const ShellFlags& flags);

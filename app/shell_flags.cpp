@@ -24,6 +24,14 @@ CLI::Validator finite_from_zero(double most, const char* expected) {
 
 }  // namespace
 
+void check_tolerance_weight(const ShellFlags& flags) {
+  if (flags.tolerance_weight.empty() || flags.tolerance.value_or(0.0) > 0.0) return;
+  throw Error(ErrorCode::BadArgument,
+              fmt::format("--tolerance-weight: found {} and no --tolerance, expected both, or a "
+                          "--budget",
+                          flags.tolerance_weight));
+}
+
 double named_copies_tolerance(const ShellFlags& flags) {
   if (flags.coarse == kAutoCopies || flags.coarse == kNoCopies) return 0.0;
   const double own = flags.tolerance.value_or(0.0);

@@ -200,7 +200,8 @@ SceneFacts facts_of(const ShellFileInfo& info, std::span<const Tool> tools) {
 
 void add_draw_flags(CLI::App& verb, DrawFlags& flags) {
   const std::string group = "Drawing shells";
-  verb.add_option("--backend", flags.backend, "auto, egl, osmesa or cpu (all but lit shells)")
+  verb.add_option("--backend", flags.backend,
+                  "auto, egl, osmesa or cpu (all but lit shells; sums and counts into 32f)")
       ->capture_default_str()
       ->group(group);
   verb.add_option("--depth-buffer", flags.depth_buffer, "16, 24 or 32f")

@@ -6,8 +6,9 @@
 
 namespace nacre {
 
-/// Memory that is taken in pieces and given back all at once, to the system: what is not touched
-/// costs nothing, and what is given back is free for others at once.
+/// Memory that is taken in pieces and given back all at once: to itself by `clear`, to the system
+/// at its end. What is not touched costs nothing, and what the system has is free for others at
+/// once.
 class ChunkArena {
  public:
   /// @param size  bytes, at most 64 kB

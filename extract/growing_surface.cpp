@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "core/error.h"
@@ -13,7 +14,7 @@ namespace nacre {
 namespace {
 
 /// Room for more elements, at once for those that the slabs to come may add: what is not used is
-/// never touched, so it costs addresses, not memory.
+/// never touched, so that it costs addresses (up to four times those needed), not memory.
 template <class Element>
 void make_room(std::vector<Element>& elements, std::size_t count, double share) {
   const std::size_t needed = elements.size() + count;
@@ -53,35 +54,33 @@ void read_more(const ScratchFile& file, std::uint64_t offset, std::size_t count,
 
 }  // namespace
 
-void renumber(std::span<glm::uvec3> triangles, const Renumbering& renumbering, bool reversed) {
-  const auto [shared_count, shared_offset, own_offset] = renumbering;
-  for (glm::uvec3& triangle : triangles) {
-    for (int i = 0; i < 3; ++i) {
-      triangle[i] += triangle[i] < shared_count ? shared_offset : own_offset;
-    }
-    if (reversed) std::swap(triangle.y, triangle.z);
-  }
-}
-
-Renumbering GrowingSurface::add_vertices(const LevelOutput& part) {
-  const std::uint64_t own_offset = vertices_ - part.shared_count;
-  const Renumbering renumbering{.shared_count = static_cast<std::uint32_t>(part.shared_count),
-                                .shared_offset = static_cast<std::uint32_t>(top_begin_),
-                                .own_offset = static_cast<std::uint32_t>(own_offset)};
-  top_begin_ = own_offset + part.top_begin;
-  vertices_ = own_offset + part.next_vertex;
+/// Gives a part's triangles their numbers in the whole surface.
+void GrowingSurface::renumber(LevelOutput& part, std::size_t level, bool reversed) {
+  const std::uint64_t own_begin = vertices_ - part.shared_count;
+  const auto shared_count = static_cast<std::uint32_t>(part.shared_count);
+  const auto shared_offset = static_cast<std::uint32_t>(top_begin_);
+  const auto own_offset = static_cast<std::uint32_t>(own_begin);
+  top_begin_ = own_begin + part.top_begin;
+  vertices_ = own_begin + part.next_vertex;
   if (vertices_ > std::numeric_limits<std::uint32_t>::max()) {
     throw Error(ErrorCode::Unsupported,
-                fmt::format("surface: found {} vertices, expected at most 2^32 - 1", vertices_));
+                fmt::format("surface of level {}: found {} vertices, expected at most 2^32 - 1",
+                            level + 1, vertices_));
   }
-  return renumbering;
+  part.triangles.for_each_chunk([&](std::span<glm::uvec3> chunk) {
+    for (glm::uvec3& triangle : chunk) {
+      for (int i = 0; i < 3; ++i) {
+        triangle[i] += triangle[i] < shared_count ? shared_offset : own_offset;
+      }
+      if (reversed) std::swap(triangle.y, triangle.z);
+    }
+  });
 }
 
-void GrowingSurface::append(LevelOutput& part, bool reversed, double share, ScratchFile* file) {
-  const Renumbering renumbering = add_vertices(part);
+void GrowingSurface::append(LevelOutput& part, std::size_t level, bool reversed, double share,
+                            ScratchFile* file) {
+  renumber(part, level, reversed);
   triangles_ += part.triangles.size();
-  part.triangles.for_each_chunk(
-      [&](std::span<glm::uvec3> chunk) { renumber(chunk, renumbering, reversed); });
   if (file != nullptr && !is_disk_full_ && store(part, *file)) return;
   TriangleMesh& mesh = places_.empty() ? head_ : tail_;
   append_all(part.positions, share, mesh.positions);

@@ -2,8 +2,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <glm/vec3.hpp>
-#include <span>
 #include <vector>
 
 #include "core/triangle_mesh.h"
@@ -11,17 +9,6 @@
 #include "extract/scratch_file.h"
 
 namespace nacre {
-
-/// How the vertex numbers of one level in one slab become those of the whole surface.
-struct Renumbering {
-  std::uint32_t shared_count = 0;   ///< numbers below this are of the slab below
-  std::uint32_t shared_offset = 0;  ///< added to them, modulo 2^32
-  std::uint32_t own_offset = 0;     ///< added to the others
-};
-
-/// Gives a part's triangles their numbers in the whole surface.
-/// @param reversed  turn them round
-void renumber(std::span<glm::uvec3> triangles, const Renumbering& renumbering, bool reversed);
 
 /// One level's surface, to which the slabs of a sweep add their parts, lowest slab first. A slab's
 /// vertices follow those of the slabs below it; the vertices of its lowest slice are those of the
@@ -33,10 +20,11 @@ class GrowingSurface {
  public:
   /// @param part      its triangles are renumbered in place
   /// @param reversed  turn the triangles round
-  /// @param share     of all slabs that are then there, in (0, 1]: tells how much room to make
+  /// @param level     its number, for the message
+  /// @param share     slabs up to this one of all slabs, in (0, 1]: tells how much room to make
   /// @param file      where the part goes; null: memory
   /// @throws Error    Unsupported for more than 2^32 - 1 vertices
-  void append(LevelOutput& part, bool reversed, double share, ScratchFile* file);
+  void append(LevelOutput& part, std::size_t level, bool reversed, double share, ScratchFile* file);
 
   std::size_t triangle_count() const { return triangles_; }
 
@@ -54,7 +42,7 @@ class GrowingSurface {
     std::size_t triangle_count = 0;
   };
 
-  Renumbering add_vertices(const LevelOutput& part);
+  void renumber(LevelOutput& part, std::size_t level, bool reversed);
   bool store(LevelOutput& part, ScratchFile& file);
 
   std::uint64_t vertices_ = 0;

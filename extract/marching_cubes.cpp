@@ -22,7 +22,7 @@ constexpr std::size_t kLevelsPerSweep = 255;
 
 /// Slabs a thread should have, so that uneven ones even out; their thickness changes no output.
 constexpr std::size_t kSlabsPerThread = 8;
-/// Thicker slabs need more memory before they are merged, thinner ones sweep more slices twice.
+/// Thicker slabs need more memory before they are appended, thinner ones sweep more slices twice.
 constexpr std::size_t kThickestSlab = 8;
 constexpr std::size_t kThinnestSlab = 4;
 
@@ -68,8 +68,10 @@ std::unique_ptr<SweptSurfaces> sweep(const Volume& volume, const SweepGrid& grid
   tbb::enumerable_thread_specific<SweepWorkspace> workspaces(
       [&grid] { return SweepWorkspace(grid); });
   const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
-  std::vector<SlabOutput> outputs(std::min(threads, slabs.size()));
-  for (SlabOutput& output : outputs) output = SlabOutput(levels.count);
+  std::vector<SlabOutput> outputs;
+  for (std::size_t i = 0; i < std::min(threads, slabs.size()); ++i) {
+    outputs.emplace_back(levels.count);
+  }
 
   std::size_t next = 0;
   const auto number = [&](tbb::flow_control& flow) {

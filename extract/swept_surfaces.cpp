@@ -1,6 +1,7 @@
 #include "extract/swept_surfaces.h"
 
 #include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
 
 namespace nacre {
 namespace {
@@ -29,8 +30,11 @@ void SweptSurfaces::append(SlabOutput& output) {
   held_bytes_ += byte_count(output);
   is_storing_ = is_storing_ || (scratch_ && held_bytes_ > memory_bytes_);
   const double share = static_cast<double>(++slabs_) / static_cast<double>(slab_count_);
-  tbb::parallel_for(std::size_t{0}, surfaces_.size(), [&](std::size_t k) {
-    surfaces_[k].append(output.levels[k], reversed_, share, is_storing_ ? file() : nullptr);
+  // Isolated: a thread that waits for the others must not take up another slab meanwhile.
+  tbb::this_task_arena::isolate([&] {
+    tbb::parallel_for(std::size_t{0}, surfaces_.size(), [&](std::size_t k) {
+      surfaces_[k].append(output.levels[k], k, reversed_, share, is_storing_ ? file() : nullptr);
+    });
   });
 }
 

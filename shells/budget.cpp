@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -52,6 +53,9 @@ double spread(ToleranceWeight weight) {
   return weight == ToleranceWeight::Picture ? kMeanWeight : 1.0;
 }
 
+/// The nearest number of six decimals: one that can be typed again.
+double short_decimal(double x) { return std::round(1e6 * x) / 1e6; }
+
 std::vector<Rung> rungs_for(const LadderOptions& options) {
   std::vector<Rung> rungs;
   const double held = options.tolerance.value_or(0.0) / spread(options.weight);
@@ -99,7 +103,8 @@ std::vector<BudgetCandidate> budget_ladder(const glm::i64vec3& dims,
     const double step = options.unit == Budget::Unit::Triangles ? kFinestStep : rung.step_spacings;
     const BudgetCandidate candidate{
         rung.levels,
-        options.tolerance.value_or(std::min(spread(options.weight) * rung.tolerance, 1.0)),
+        options.tolerance.value_or(
+            short_decimal(std::min(spread(options.weight) * rung.tolerance, 1.0))),
         options.bits ? *options.bits : bits_for(dims, world_from_voxel, step), options.placement,
         options.weight};
     if (ladder.empty() || !is_same(ladder.back(), candidate)) ladder.push_back(candidate);

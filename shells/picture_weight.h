@@ -9,9 +9,9 @@
 
 namespace nacre {
 
-/// By how much errors weigh more where the field is shallowest than where it is steepest, and more
-/// at a shell's mean slope than at the steepest.
+/// Weight of errors where the field is shallowest; 1 where it is steepest.
 inline constexpr double kMostWeight = 9.0;
+/// At a shell's mean slope.
 inline constexpr double kMeanWeight = 3.0;
 
 /// The mean length of a field's gradient over a surface, per mm; points that may not move are left

@@ -82,20 +82,21 @@ struct Brightness<float> {
 template <>
 struct Brightness<std::int32_t> {};
 
-/// ... or, for sums, steps at a depth d beyond the start of the ray: the whole part of
-/// constant + d (linear + square d), at most `kMostSteps` at the depths of corners ...
+/// ... or, for sums, steps at a depth d beyond the start of the ray, from 0 to `most_depth_mm`: the
+/// whole part of constant + d (linear + square d), at most `kMostSteps` ...
 template <>
 struct Brightness<std::int64_t> {
   float constant = 0.0F;
   float linear = 0.0F;
   float square = 0.0F;
+  /// Of the scene. Triangles thinner than the rounding of their corners may be crossed beyond them.
+  float most_depth_mm = 0.0F;
   /// An integral: front faces take off what back faces add, and crossings before the start or
   /// beyond the end of a ray count as there. Else each crossing between them adds the same way.
   bool is_signed = false;
 };
 
-/// Steps of one crossing, a quarter of what 32 bits hold: triangles thinner than the rounding of
-/// their corners may be crossed by up to two thirds of the scene's depth beyond them.
+/// Steps of one crossing: 32 bits hold them with room to spare.
 inline constexpr float kMostSteps = 0x1p29F;
 
 /// ... or which triangle it is: this number plus its place among the corners of its mesh.

@@ -25,6 +25,7 @@ inline Floats gather_floats(const float* values, const std::uint8_t* corners,
 struct PlaneCorner {
   Floats x, y, depth;
 
+  /// Rounded less exact.
   Floats off(const Floats& pixel) const {
     const Floats sub_pixels = pixel * static_cast<float>(kSubpixels);
     return ((sub_pixels + kRound) - kRound - sub_pixels) / static_cast<float>(kSubpixels);
@@ -43,14 +44,15 @@ inline PlaneCorner plane_corner(const PixelVertices& vertices, const std::uint8_
 }
 
 /// Moves the depths of corners to where these were rounded, along the plane of the triangle: a
-/// crossing then lies where the ray meets the triangle as it was, not up to the slope times 1/256
-/// of a pixel aside.
+/// crossing then lies where the ray meets the triangle as it was, not up to the slope times 1/512
+/// of a pixel aside. Triangles without area have no slope.
 inline void stay_on_plane(PlaneCorner& a, PlaneCorner& b, PlaneCorner& c, bool perspective) {
   const PlaneCorner u{b.x - a.x, b.y - a.y, b.depth - a.depth};
   const PlaneCorner v{c.x - a.x, c.y - a.y, c.depth - a.depth};
   const Floats area = u.x * v.y - u.y * v.x;
-  const Floats slope_x = (u.depth * v.y - v.depth * u.y) / area;
-  const Floats slope_y = (v.depth * u.x - u.depth * v.x) / area;
+  const Floats inverse = area == 0.0F ? Floats{} : 1.0F / area;
+  const Floats slope_x = (u.depth * v.y - v.depth * u.y) * inverse;
+  const Floats slope_y = (v.depth * u.x - u.depth * v.x) * inverse;
   const Floats lowest = least(least(a.depth, b.depth), c.depth);
   Floats most = 0.25F * (greatest(greatest(a.depth, b.depth), c.depth) - lowest);
   if (perspective) most = least(most, 0.2F * lowest);  // 1 / depth has to stay positive

@@ -78,17 +78,18 @@ struct Source<std::int64_t> {
   Ints negative;  // -1: taken off
 
   Ints at(const Floats& depth) const {
-    // Lanes beside their triangle may have any depth.
-    const Floats limit = Floats{} + 0x1.fffffep30F;
-    const Floats bounded = least(greatest(steps_at(depth - start_mm), -limit), limit);
-    const Ints steps = __builtin_convertvector(bounded, Ints);
+    // Lanes beside their triangle may have any depth, or none.
+    const Floats most = Floats{} + brightness.most_depth_mm;
+    const Floats bounded = least(greatest(depth - start_mm, Floats{}), most);
+    const Ints steps = __builtin_convertvector(steps_at(bounded), Ints);
     return (steps ^ negative) - negative;
   }
 
   /// The same for one lane where its ray may start after it and end before it.
   std::int32_t within(float depth_mm, float end_mm, int lane) const {
     if (brightness.is_signed) {
-      depth_mm = depth_mm < end_mm ? depth_mm : end_mm;
+      const float most = end_mm < brightness.most_depth_mm ? end_mm : brightness.most_depth_mm;
+      depth_mm = depth_mm < most ? depth_mm : most;
       depth_mm = depth_mm > 0.0F ? depth_mm : 0.0F;
     } else if (!(depth_mm >= 0.0F && depth_mm <= end_mm)) {
       return 0;

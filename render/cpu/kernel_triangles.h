@@ -109,7 +109,7 @@ struct RaisedPixels<std::uint8_t, false> {
 
   /// 1 if all of a rectangle is as bright; 0 is always allowed.
   unsigned hold(int x, int y, int columns, int rows) const {
-    if (rank >= 128) return 0;
+    if (rank >= 128) return 0;  // its bytes would borrow
     const std::uint8_t* first = origin + y * stride + x;
     if (columns < 4 && rows < 4) {  // most: without a branch that depends on them
       const std::uint32_t asked = kTopBits >> (8 * (3 - columns));

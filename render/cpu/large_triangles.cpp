@@ -265,11 +265,9 @@ class LargeCluster {
   /// What a crossing adds to a sum, or takes off.
   std::int64_t steps_at(std::int64_t at, float depth_mm) const {
     const Brightness<std::int64_t>& steps = draw_.brightness;
-    if (draw_.ends != nullptr && steps.is_signed) {
-      depth_mm = std::max(std::min(depth_mm, draw_.ends->of_pixels_mm[at]), 0.0F);
-    } else if (!shows(at, depth_mm)) {
-      return 0;
-    }
+    if (!steps.is_signed && !shows(at, depth_mm)) return 0;
+    if (draw_.ends != nullptr) depth_mm = std::min(depth_mm, draw_.ends->of_pixels_mm[at]);
+    depth_mm = std::clamp(depth_mm, 0.0F, steps.most_depth_mm);
     return static_cast<std::int64_t>(steps.constant +
                                      depth_mm * (steps.linear + steps.square * depth_mm));
   }

@@ -10,8 +10,9 @@
 
 namespace nacre {
 
-/// The steps in which the crossings of a pass of sums or counts add up: small enough that a float
-/// has no digits below, large enough that no crossing and no pixel overflows. Whole numbers, so
+/// The steps in which the crossings of a pass of sums or counts add up: small enough for the
+/// last digit that a float has of the largest crossing, large enough that no crossing and no pixel
+/// overflows. Whole numbers, so
 /// that sums do not depend on the order of their terms.
 class SumSteps {
  public:
@@ -27,6 +28,7 @@ class SumSteps {
  private:
   bool sum_;
   glm::dvec2 cue_;
+  double reach_mm_ = 0.0;
   double step_ = 1.0;
 };
 

@@ -386,6 +386,24 @@ TEST_F(ShellCommand, ATolerancesWeightIsWhatIsAskedAndIsKept) {
   EXPECT_EQ(triangles("--tolerance 0.15 --tolerance-weight field"), even);
   EXPECT_GT(triangles("--tolerance 0.15 --tolerance-weight picture"), even);
   expect_refusal(build + "--tolerance 0.1 --tolerance-weight much -o w.glb", 2, "tolerance-weight");
+  for (const std::string flags : {"", "--tolerance 0 ", "--tolerance-mm 0.5 "}) {
+    expect_refusal(build + flags + "--tolerance-weight picture -o w.glb", 2,
+                   "--tolerance-weight: found picture and no --tolerance");
+  }
+}
+
+TEST_F(ShellCommand, ABudgetSaysTheFlagsThatMakeItsSetAgain) {
+  const std::string build = "build ball.nii --window 0,28 --certificate 8x8 ";
+  const CommandResult result = nacre(build + "--budget 12kB -o b.glb");
+  ASSERT_EQ(result.status, 0) << result.errors;
+  const std::string chosen = "chosen: ";
+  const std::size_t begin = result.output.find(chosen) + chosen.size();
+  ASSERT_GE(begin, chosen.size()) << result.output;
+  const std::string flags = result.output.substr(begin, result.output.find('\n', begin) - begin);
+  ASSERT_EQ(nacre(build + flags + " -o again.glb").status, 0) << flags;
+  EXPECT_EQ(testing::read_bytes(folder_.path() / "again.glb"),
+            testing::read_bytes(folder_.path() / "b.glb"))
+      << flags;
 }
 
 TEST_F(ShellCommand, ABudgetWeighsWhatToleranceItChoosesUnlessAsked) {

@@ -135,7 +135,7 @@ TEST(CpuCoverage, BothWaysAndAllInstructionsCutTheSame) {
     const auto rank = left_of<std::uint8_t>(mesh, Way::Baseline, {3}, &ends);
     const auto cued = left_of<float>(mesh, Way::Baseline, {1.0F, 0.5F}, &ends);
     const auto count = left_of<std::int32_t>(mesh, Way::Baseline, {}, &ends);
-    const Brightness<std::int64_t> integral{0.0F, 1000.0F, 30.0F, true};
+    const Brightness<std::int64_t> integral{0.0F, 1000.0F, 30.0F, 100.0F, true};
     const auto sum = left_of<std::int64_t>(mesh, Way::Baseline, integral, &ends);
     const auto sum_large = left_of<std::int64_t>(mesh, Way::Large, integral, &ends);
     ASSERT_EQ(left_of<std::int64_t>(mesh, Way::Best, integral, &ends), sum);
@@ -217,6 +217,34 @@ double plane_depth(const Corners& corners, const glm::dvec3& depths, const glm::
   return a.z - glm::dot(glm::dvec2(normal), at - glm::dvec2(a)) / normal.z;
 }
 
+// Corners in a line, which rounding makes triangles of: their depths stay, both ways.
+TEST(CpuCoverage, SumsLeaveTheDepthsOfTrianglesWithoutArea) {
+  std::mt19937 random(6);
+  std::uniform_int_distribution<int> fine(0, 16 * 4096);  // so that differences are exact
+  const auto vector = [&] {
+    const auto x = static_cast<float>(fine(random)) / 4096.0F;
+    return glm::vec2(x, static_cast<float>(fine(random)) / 4096.0F);
+  };
+  std::uniform_real_distribution<float> depth(10.0F, 90.0F);
+  constexpr float kSteps = 1e6F;
+  const Brightness<std::int64_t> integral{0.0F, kSteps, 0.0F, 100.0F, true};
+  std::size_t covered = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const glm::vec2 from = vector();
+    const glm::vec2 way = 0.5F * vector();
+    const Corners corners{from, from + 2.0F * way, from + way};
+    const MeshClusters mesh = clusters_of(corners, {depth(random), depth(random), depth(random)});
+    const auto sum = left_of<std::int64_t>(mesh, Way::Baseline, integral, nullptr);
+    const auto large = left_of<std::int64_t>(mesh, Way::Large, integral, nullptr);
+    ASSERT_EQ(left_of<std::int64_t>(mesh, Way::Best, integral, nullptr), sum);
+    for (std::size_t p = 0; p < sum.size(); ++p) {
+      ASSERT_NEAR(static_cast<double>(sum[p]), static_cast<double>(large[p]), 2e-4 * kSteps);
+      covered += sum[p] != 0 ? 1U : 0U;
+    }
+  }
+  EXPECT_GT(covered, 100U);
+}
+
 // Corners are rounded to 1/256 of a pixel, depths of sums are not: the plane stays where it is. A
 // sliver's depth stays near those of its corners.
 TEST(CpuCoverage, SumsTakeTheDepthOfTheTriangleAsItWas) {
@@ -225,7 +253,7 @@ TEST(CpuCoverage, SumsTakeTheDepthOfTheTriangleAsItWas) {
   std::uniform_real_distribution<float> depth(10.0F, 90.0F);
   std::uniform_real_distribution<float> wide(0.0F, 0.01F);
   constexpr float kSteps = 1e6F;
-  const Brightness<std::int64_t> integral{0.0F, kSteps, 0.0F, true};
+  const Brightness<std::int64_t> integral{0.0F, kSteps, 0.0F, 100.0F, true};
   std::size_t on_plane = 0;
   std::size_t slivers = 0;
   for (int i = 0; i < 10000; ++i) {

@@ -202,6 +202,29 @@ TEST(CpuSumsAlone, AreWhatRaysShowOfTheSameTriangles) {
   }
 }
 
+// Walls along the view, thinner in the picture than the rounding of their corners, reach through
+// all the scene; rays start near its end, where the cue is darkest.
+TEST(CpuSumsAlone, StayWithinTheSceneAtWallsAlongTheView) {
+  const BoundingSphere sphere{{}, 60.0};
+  const ShellSet set = make_set({block_mesh({-30, -58, -20}, {10, 58, 20})}, {});
+  for (const double turn : {0.0, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3}) {
+    for (const auto field_of_view : {std::optional<double>(), std::optional<double>(0.1)}) {
+      const Camera camera = make_camera(
+          {.size = {60, 60}, .azimuth_rad = turn, .field_of_view_rad = field_of_view}, sphere);
+      for (const DepthCue& cue : {DepthCue{-1.0, 1.0, 0.0}, DepthCue{1.0, 0.0, 0.0}, DepthCue{}}) {
+        const RenderOptions options{
+            .mode = PictureMode::Sum, .cue = cue, .slab = {.near_mm = 57.0}};
+        const Image ours = draw(set, {}, camera, options).volume;
+        for (const float pixel : ours.pixels) {
+          ASSERT_GE(pixel, -0.01F) << turn;
+          ASSERT_LE(pixel, 1.05F) << turn;  // mm from 57 to 58, and the corners
+        }
+        expect_rays(set, {}, camera, options, 0.02);  // the walls' own columns are lines
+      }
+    }
+  }
+}
+
 // Triangles of many thousand pixels, most of them outside.
 TEST(CpuSumsAlone, AreWhatRaysShowOfHugeTriangles) {
   const BoundingSphere sphere{{}, 60.0};

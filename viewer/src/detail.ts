@@ -52,6 +52,9 @@ export class Detail {
   /** Judgements in time, and late ones without a remedy, since detail changed. */
   private calm = 0;
   private stuck = 0;
+  /** Late judgements without a remedy before a whole picture is tried, now and after the next in vain. */
+  private untilWhole = 0;
+  private wholePatience = mostPatience;
   /** Whether the last change gave detail back. */
   private isTrying = false;
   private patience = leastPatience;
@@ -63,6 +66,7 @@ export class Detail {
     this.amount = { ...whole };
     [this.times, this.trial, this.present, this.useless] = [[], null, null, new Set()];
     [this.calm, this.stuck, this.isTrying, this.patience] = [0, 0, false, leastPatience];
+    [this.untilWhole, this.wholePatience] = [0, mostPatience];
     this.copies = copies;
   }
 
@@ -106,7 +110,13 @@ export class Detail {
   /** Goes back to less detail if the whole picture takes longer by as much as a step has to gain. */
   private compare(present: NonNullable<Detail["present"]>, median: number): void {
     this.present = null;
-    if (gain * median > present.milliseconds) this.amount = present.amount;
+    this.untilWhole = this.wholePatience;
+    if (gain * median <= present.milliseconds) {
+      this.wholePatience = mostPatience;
+      return;
+    }
+    this.amount = present.amount;
+    this.wholePatience *= 2;
   }
 
   private late(median: number): void {
@@ -140,7 +150,7 @@ export class Detail {
 
   /** Late whatever is left out: perhaps all of it is in vain by now. If not, other steps wait. */
   private noStep(milliseconds: number): void {
-    if (this.stuck === 0 && !this.isWhole()) {
+    if (--this.untilWhole < 0 && !this.isWhole()) {
       this.present = { amount: this.amount, milliseconds };
       this.amount = { ...whole };
     }
