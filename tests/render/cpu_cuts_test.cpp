@@ -13,6 +13,7 @@
 #include "core/error.h"
 #include "core/picture.h"
 #include "render/cpu/cpu_renderer.h"
+#include "tests/render/both_renderers.h"
 #include "tests/render/cpu_test_support.h"
 #include "tests/render/gl_test_support.h"
 #include "tests/support/nested_shells.h"
@@ -58,33 +59,13 @@ struct Difference {
   }
 };
 
-/// Draws the angiogram on the processor and by OpenGL.
-class CpuCuts : public ::testing::Test {
+class CpuCuts : public BothRenderers {
  protected:
-  void SetUp() override {
-    if (!has_backend(test_backend())) GTEST_SKIP() << "no OpenGL on this machine";
-    gl_.emplace(test_backend());
-    gl_->upload(scan_.set);
-    cpu_.upload(scan_.set);
-  }
-
-  void set_tools(std::span<const Tool> tools) {
-    gl_->upload_tools(tools);
-    cpu_.upload_tools(tools);
-    facts_ = scene_facts(scan_.set, tools);
-  }
-
   void compare(const Camera& camera, const RenderOptions& options, Difference& difference,
                int tile_side = 4096) {
-    const Plan plan = make_plan(facts_, camera, options, {.max_target_side = tile_side});
-    ASSERT_FALSE(cpu_objection(plan));
-    difference.add(cpu_.render(camera, plan), gl_->render(camera, plan));
+    const auto [ours, theirs] = draw_both(camera, options, tile_side);
+    difference.add(ours, theirs);
   }
-
-  const Scan scan_ = small_angiogram();
-  SceneFacts facts_;
-  CpuRenderer cpu_;
-  std::optional<GlRenderer> gl_;
 };
 
 TEST_F(CpuCuts, SlabsCutWhatOpenGlCuts) {

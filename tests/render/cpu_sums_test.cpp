@@ -14,6 +14,7 @@
 #include "core/picture.h"
 #include "reference/shell_picture.h"
 #include "render/cpu/cpu_renderer.h"
+#include "tests/render/both_renderers.h"
 #include "tests/render/cpu_test_support.h"
 #include "tests/render/gl_test_support.h"
 #include "tests/support/nested_shells.h"
@@ -53,31 +54,15 @@ std::vector<Slab> slabs_and_none(double radius_mm) {
   return list;
 }
 
-/// Draws the angiogram on the processor and by OpenGL.
-class CpuSums : public ::testing::Test {
+class CpuSums : public BothRenderers {
  protected:
-  void SetUp() override {
-    if (!has_backend(test_backend())) GTEST_SKIP() << "no OpenGL on this machine";
-    gl_.emplace(test_backend());
-    gl_->upload(scan_.set);
-    cpu_.upload(scan_.set);
-  }
-
-  void set_tools(std::span<const Tool> tools) {
-    gl_->upload_tools(tools);
-    cpu_.upload_tools(tools);
-    facts_ = scene_facts(scan_.set, tools);
-  }
-
   void compare(const Camera& camera, const RenderOptions& options, int tile_side = 4096) {
-    const Plan plan = make_plan(facts_, camera, options, {.max_target_side = tile_side});
-    ASSERT_FALSE(cpu_objection(plan));
-    const Image ours = cpu_.render(camera, plan).volume;
-    const Image theirs = gl_->render(camera, plan).volume;
+    const auto [picture, by_gl] = draw_both(camera, options, tile_side);
+    const Image& ours = picture.volume;
     pixels_ += ours.pixels.size();
     lit_ += ours.pixels.size() -
             static_cast<std::size_t>(std::count(ours.pixels.begin(), ours.pixels.end(), 0.0F));
-    off_ += far_off(ours, theirs, tolerance_of(options.mode));
+    off_ += far_off(ours, by_gl.volume, tolerance_of(options.mode));
   }
 
   /// At most 1 pixel in 10,000 of all that was compared is off.
@@ -86,10 +71,6 @@ class CpuSums : public ::testing::Test {
     EXPECT_GT(lit_, pixels_ / 100) << pixels_;
   }
 
-  const Scan scan_ = small_angiogram();
-  SceneFacts facts_;
-  CpuRenderer cpu_;
-  std::optional<GlRenderer> gl_;
   std::size_t pixels_ = 0;
   std::size_t lit_ = 0;
   std::size_t off_ = 0;
