@@ -103,7 +103,6 @@ ordered_json certificate_of(const BuildFlags& flags, const CompressedSet& built,
 /// A budget is for what a scene needs at most, and holds for the file: it has no room for copies.
 /// @throws Error  BadArgument for copies that cannot be, and for a budget with any
 void check_copies(const BuildFlags& flags) {
-  if (flags.budget.empty()) check_tolerance_weight(flags.shells);
   named_copies_tolerance(flags.shells);
   const std::string& coarse = flags.shells.coarse;
   if (flags.budget.empty() || coarse == kAutoCopies || coarse == kNoCopies) return;
@@ -141,7 +140,11 @@ void run_build(const BuildFlags& flags) {
   check_name(flags.output);
   check_certificate(flags.certificate);
   check_copies(flags);
-  if (!flags.budget.empty()) check_budget(flags.budget);
+  if (flags.budget.empty()) {
+    check_tolerance_weight(flags.shells);
+  } else {
+    check_budget(flags.budget);
+  }
   AtomicFile file(flags.output);  // before the work, which a bad name would waste
   Stopwatch total;
   Stopwatch watch;

@@ -10,7 +10,6 @@
 #include "app/build_words.h"
 #include "io/draco_decode.h"
 #include "shells/crossings.h"
-#include "shells/picture_weight.h"
 #include "shells/prune.h"
 
 namespace nacre {
@@ -62,18 +61,18 @@ std::size_t byte_count(const std::vector<CompressedShell>& shells) {
 }
 
 /// 0 where copies would not be much coarser than the shells, or those are not simplified.
-double chosen_tolerance(const ShellFlags& flags, std::size_t levels) {
-  const double own = flags.tolerance.value_or(0.0);
-  const double at_mean_slope = flags.tolerance_weight == kPictureWeight ? own / kMeanWeight : own;
-  const double chosen =
-      std::min(kCoarseLayers / static_cast<double>(std::max<std::size_t>(levels, 1)), kCoarsest);
+double chosen_tolerance(const BuildOptions& options) {
+  const double own = options.emission_tolerance;
+  const double at_mean_slope = own / weight_at_mean_slope(options.tolerance_weight);
+  const auto levels = static_cast<double>(std::max<std::size_t>(options.levels.size(), 1));
+  const double chosen = std::min(kCoarseLayers / levels, kCoarsest);
   return own > 0.0 && chosen > own && chosen >= kCoarser * at_mean_slope ? chosen : 0.0;
 }
 
 void set_copies(BuildOptions& options, const ShellFlags& flags) {
   options.coarse_tolerance = named_copies_tolerance(flags);
   if (flags.coarse != kAutoCopies) return;
-  options.coarse_tolerance = chosen_tolerance(flags, options.levels.size());
+  options.coarse_tolerance = chosen_tolerance(options);
   options.coarse_above_triangles = kManyTriangles;
 }
 
@@ -83,10 +82,10 @@ BuildOptions build_options(const ShellFlags& flags, const glm::dmat4& world_from
                            PlacedLevels levels, ProgressCallback progress) {
   BuildOptions options;
   options.levels = std::move(levels.levels);
-  set_copies(options, flags);
   options.placement = std::move(levels.placement);
   options.emission_tolerance = flags.tolerance.value_or(0.0);
   if (flags.tolerance_weight == kPictureWeight) options.tolerance_weight = ToleranceWeight::Picture;
+  set_copies(options, flags);
   options.tolerance_mm = flags.tolerance_mm;
   options.quantization_bits = flags.quantization;
   if (!flags.keep_specks) {

@@ -34,8 +34,7 @@ struct ShellFlags : LevelFlags {
 };
 
 /// Adds the flags of levels, --tolerance, --tolerance-weight, --tolerance-mm, --quantization,
-/// --min-component,
-/// --keep-specks and --purpose.
+/// --min-component, --keep-specks and --purpose.
 void add_shell_flags(CLI::App& verb, ShellFlags& flags);
 
 /// @throws Error  BadArgument for a --tolerance-weight of no tolerance

@@ -122,6 +122,7 @@ void serve(const ViewFlags& flags, ServedPage served, Reporter& reporter) {
 }
 
 void view_volume(const ViewFlags& flags, Reporter& reporter) {
+  check_tolerance_weight(flags.shells);
   EmissionVolume input = read_emission_volume(flags.volume, reporter);
   if (!flags.output.empty()) {
     return write_page(flags.output, built_set(flags.shells, std::move(input), reporter), reporter);

@@ -8,8 +8,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
-#include <filesystem>
 #include <functional>
 #include <glm/vec3.hpp>
 #include <limits>
@@ -20,13 +18,13 @@
 #include <utility>
 #include <vector>
 
+#include "bench/scans.h"
 #include "core/error.h"
 #include "core/volume_geometry.h"
 #include "datasets/phantom.h"
 #include "extract/levels.h"
 #include "extract/marching_cubes.h"
 #include "io/tool_reader.h"
-#include "io/volume_reader.h"
 #include "reference/exact_picture.h"
 #include "render/cpu/cpu_renderer.h"
 #include "render/gl/gl_renderer.h"
@@ -47,11 +45,13 @@ struct Scene {
   std::int64_t side = 256;  ///< samples of the phantom along x and y
 };
 
+Scene scene_of(const Scan& scan) { return {scan.name, scan.file, scan.lo, scan.hi}; }
+
 /// All that the benches of a scene share, made when first needed.
 class LoadedScene {
  public:
   explicit LoadedScene(const Scene& scene)
-      : volume_(scene.file.empty() ? phantom(scene.side) : read(scene.file)),
+      : volume_(scene.file.empty() ? phantom(scene.side) : read_scan(scene.file)),
         emission_(EmissionMap::window(scene.lo, scene.hi)),
         walk_(volume_, emission_),
         sphere_(bounding_sphere(volume_.dims, volume_.world_from_voxel)) {
@@ -94,11 +94,6 @@ class LoadedScene {
  private:
   static Volume phantom(std::int64_t side) {
     return make_phantom("angiogram", {.size = glm::i64vec3(side, side, side * 124 / 256)});
-  }
-
-  static Volume read(const std::string& file) {
-    return read_volume(std::filesystem::path(std::getenv("NACRE_TEST_DATA")) / "volumes" / file)
-        .volume;
   }
 
   Volume volume_;
@@ -196,8 +191,7 @@ struct Cut {
 
 /// A surgical tool across the middle of the scene.
 Tool scalpel(const LoadedScene& scene) {
-  Tool tool =
-      read_tool(std::filesystem::path(std::getenv("NACRE_TEST_DATA")) / "tools" / "scalpel.stl");
+  Tool tool = read_tool(test_data("tools/scalpel.stl"));
   tool.world_from_tool[3] = glm::dvec4(scene.sphere().center_mm - glm::dvec3(0, 20, -10), 1.0);
   return tool;
 }
@@ -292,12 +286,10 @@ void register_growing() {
 
 int main(int argc, char** argv) {
   nacre::register_scene({"phantom", "", 400.0, 1400.0});
-  if (std::getenv("NACRE_TEST_DATA") != nullptr) {
-    nacre::register_scene({"chris_MRA", "chris_MRA.nii.gz", 20.0, 230.0});
-    nacre::register_scene({"aneurism", "aneurism_256_uint8.nrrd", 20.0, 250.0});
-    nacre::register_scene({"MR_Gd", "MR_Gd.nii.gz", 648.0, 1556.0});
-    nacre::register_sums({"chris_MRA", "chris_MRA.nii.gz", 20.0, 230.0});
-    nacre::register_cuts({"chris_MRA", "chris_MRA.nii.gz", 20.0, 230.0});
+  if (nacre::has_test_data()) {
+    for (const nacre::Scan& scan : nacre::kScans) nacre::register_scene(nacre::scene_of(scan));
+    nacre::register_sums(nacre::scene_of(nacre::kHeadScan));
+    nacre::register_cuts(nacre::scene_of(nacre::kHeadScan));
   }
   nacre::register_growing();
   benchmark::Initialize(&argc, argv);

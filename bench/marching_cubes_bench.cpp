@@ -3,11 +3,8 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
-#include <filesystem>
 #include <functional>
 #include <glm/geometric.hpp>
 #include <initializer_list>
@@ -16,12 +13,12 @@
 #include <utility>
 #include <vector>
 
+#include "bench/scans.h"
 #include "core/emission.h"
 #include "core/triangle_mesh.h"
 #include "core/volume.h"
 #include "datasets/phantom.h"
 #include "extract/levels.h"
-#include "io/volume_reader.h"
 #ifdef NACRE_HAVE_VTK
 #include "bench/flying_edges.h"
 #endif
@@ -54,20 +51,8 @@ Case phantom_case(const std::string& name, const benchmark::State& state) {
   return make_case(make_phantom(name), info->window_lo, info->window_hi, state);
 }
 
-/// A file of the test data and its window.
-struct Scan {
-  const char* name;
-  const char* file;
-  double lo;
-  double hi;
-};
-
-constexpr std::array kScans{Scan{"chris_MRA", "chris_MRA.nii.gz", 20.0, 230.0},
-                            Scan{"aneurism", "aneurism_256_uint8.nrrd", 20.0, 250.0}};
-
 Case scan_case(const Scan& scan, const benchmark::State& state) {
-  const auto folder = std::filesystem::path(std::getenv("NACRE_TEST_DATA")) / "volumes";
-  return make_case(read_volume(folder / scan.file).volume, scan.lo, scan.hi, state);
+  return make_case(read_scan(scan.file), scan.lo, scan.hi, state);
 }
 
 void count_triangles(benchmark::State& state, const Case& contoured, std::size_t triangles,
@@ -135,7 +120,7 @@ void add_all() {
   add_benches("angiogram", phantom("angiogram"), {1, 12, 48});
   add_benches("spheres", phantom("spheres"), {12});
   add_benches("torus", phantom("torus"), {12});
-  if (std::getenv("NACRE_TEST_DATA") == nullptr) return;
+  if (!has_test_data()) return;
   for (const Scan& scan : kScans) {
     add_benches(scan.name,
                 [&scan](const benchmark::State& state) { return scan_case(scan, state); },

@@ -19,8 +19,8 @@ namespace nacre {
 class GrowingSurface {
  public:
   /// @param part      its triangles are renumbered in place
-  /// @param reversed  turn the triangles round
   /// @param level     its number, for the message
+  /// @param reversed  turn the triangles round
   /// @param share     slabs up to this one of all slabs, in (0, 1]: tells how much room to make
   /// @param file      where the part goes; null: memory
   /// @throws Error    Unsupported for more than 2^32 - 1 vertices

@@ -6,7 +6,6 @@
 #include <limits>
 #include <utility>
 
-#include "shells/picture_weight.h"
 #include "shells/quantization.h"
 
 namespace nacre {
@@ -48,17 +47,12 @@ double step_for(double tolerance) {
   return tolerance > 0.019 ? kFineStep : kFinestStep;
 }
 
-/// How much larger a tolerance is than what it leaves at a shell's mean slope.
-double spread(ToleranceWeight weight) {
-  return weight == ToleranceWeight::Picture ? kMeanWeight : 1.0;
-}
-
 /// The nearest number of six decimals: one that can be typed again.
 double short_decimal(double x) { return std::round(1e6 * x) / 1e6; }
 
 std::vector<Rung> rungs_for(const LadderOptions& options) {
   std::vector<Rung> rungs;
-  const double held = options.tolerance.value_or(0.0) / spread(options.weight);
+  const double held = options.tolerance.value_or(0.0) / weight_at_mean_slope(options.weight);
   if (options.levels && options.tolerance) {
     for (const double step : {kCoarseStep, kMiddleStep, kFineStep, kFinestStep}) {
       rungs.push_back({*options.levels, held, step});
@@ -104,7 +98,7 @@ std::vector<BudgetCandidate> budget_ladder(const glm::i64vec3& dims,
     const BudgetCandidate candidate{
         rung.levels,
         options.tolerance.value_or(
-            short_decimal(std::min(spread(options.weight) * rung.tolerance, 1.0))),
+            short_decimal(std::min(weight_at_mean_slope(options.weight) * rung.tolerance, 1.0))),
         options.bits ? *options.bits : bits_for(dims, world_from_voxel, step), options.placement,
         options.weight};
     if (ladder.empty() || !is_same(ladder.back(), candidate)) ladder.push_back(candidate);

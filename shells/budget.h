@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "shells/build.h"
+#include "shells/tolerance_weight.h"
 
 namespace nacre {
 

@@ -163,7 +163,8 @@ TriangleMesh simplify_on_level(const TriangleMesh& contour, const LevelField& of
   const bool is_weighted = options.tolerance_weight == ToleranceWeight::Picture;
   bounds.error_tolerance = options.emission_tolerance;
   bounds.field = off_level;
-  const double at_mean_slope = options.emission_tolerance / (is_weighted ? kMeanWeight : 1.0);
+  const double at_mean_slope =
+      options.emission_tolerance / weight_at_mean_slope(options.tolerance_weight);
   const TriangleMesh refined = refine(
       contour, bounds.field,
       {.error_tolerance = std::max(at_mean_slope, kFineEnough), .reach_mm = bounds.spacing_mm});

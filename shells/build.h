@@ -13,14 +13,9 @@
 #include "core/volume.h"
 #include "extract/levels.h"
 #include "shells/snap.h"
+#include "shells/tolerance_weight.h"
 
 namespace nacre {
-
-/// How an emission tolerance is used; it bounds the error everywhere in both.
-enum class ToleranceWeight {
-  Field,    ///< all of it, wherever a surface is
-  Picture,  ///< less of it where the field is shallow, and maxima show more of an error
-};
 
 struct BuildOptions {
   std::vector<Level> levels;          ///< strictly ascending

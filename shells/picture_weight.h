@@ -6,13 +6,9 @@
 #include "core/triangle_mesh.h"
 #include "shells/level_field.h"
 #include "shells/surface_field.h"
+#include "shells/tolerance_weight.h"
 
 namespace nacre {
-
-/// Weight of errors where the field is shallowest; 1 where it is steepest.
-inline constexpr double kMostWeight = 9.0;
-/// At a shell's mean slope.
-inline constexpr double kMeanWeight = 3.0;
 
 /// The mean length of a field's gradient over a surface, per mm; points that may not move are left
 /// out. 0 where there are none.

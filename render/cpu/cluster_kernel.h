@@ -5,6 +5,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
+#include <type_traits>
 
 #include "core/instruction_set.h"
 #include "render/cpu/mesh_clusters.h"
@@ -64,6 +65,19 @@ struct PixelTarget {
   int width = 0;
   int height = 0;
 };
+
+/// Whether pixels hold numbers of shells.
+template <class Pixel>
+inline constexpr bool kCounts = std::is_same_v<Pixel, std::int32_t>;
+
+/// Whether they hold sums.
+template <class Pixel>
+inline constexpr bool kSums = std::is_same_v<Pixel, std::int64_t>;
+
+/// Whether they take the depth of the very triangle, not of the one with rounded corners: what adds
+/// up, and where tools end rays. Both are a few more steps a triangle.
+template <class Pixel>
+inline constexpr bool kOnPlane = kSums<Pixel> || std::is_same_v<Pixel, std::uint64_t>;
 
 /// What a shell puts into pixels: a rank, the same everywhere, ...
 template <class Pixel>

@@ -32,8 +32,8 @@ std::optional<std::string> cpu_objection(const Plan& plan);
 /// A maximum does not depend on the order of drawing, nor does a sum of whole numbers, so threads
 /// share nothing: each raises the pixels of a picture of its own, or adds to them, and the greatest
 /// or the sum of them is the picture. The same bytes for any number of threads and for all
-/// instruction sets. Pixels are those of `GlRenderer`, but for
-/// corners that floats put to either side of a sub-pixel.
+/// instruction sets. Pixels are those of `GlRenderer`, but for corners that floats put to either
+/// side of a sub-pixel.
 ///
 /// Uses all threads of the calling TBB arena. A renderer is used from one thread at a time.
 class CpuRenderer : public ShellRenderer {

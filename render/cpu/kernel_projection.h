@@ -108,18 +108,6 @@ Extent depths_of(const Kernel<Pixel>& kernel, const Cluster& cluster) {
   return {middle - reach, middle + reach};
 }
 
-/// Whether pixels hold numbers of shells.
-template <class Pixel>
-constexpr bool kCounts = false;
-template <>
-constexpr bool kCounts<std::int32_t> = true;
-
-/// Whether they hold sums.
-template <class Pixel>
-constexpr bool kSums = false;
-template <>
-constexpr bool kSums<std::int64_t> = true;
-
 /// Whether what pixels hold depends on depth.
 template <class Pixel>
 constexpr bool kDeep = false;
@@ -136,13 +124,6 @@ bool counts_beyond(const Brightness<Pixel>& brightness) {
   if constexpr (kSums<Pixel>) return brightness.is_signed;
   return false;
 }
-
-/// Whether it takes the depth of the very triangle, not of the one with rounded corners: what adds
-/// up, and where tools end rays. Both are a few more steps a triangle.
-template <class Pixel>
-constexpr bool kOnPlane = kSums<Pixel>;
-template <>
-constexpr bool kOnPlane<std::uint64_t> = true;
 
 /// What part of the cluster shows, or, for numbers of shells, lies beyond the ends.
 template <class Pixel>

@@ -136,7 +136,7 @@ struct RaisedPixels<std::uint8_t, false> {
 
 /// Lists the triangles that are turned the right way, have a centre within their bounds, and may
 /// raise a pixel: few, as most triangles are smaller than a pixel, and most of the others lie
-/// before brighter shells. The list is padded to whole vectors.
+/// in front of brighter shells. The list is padded to whole vectors.
 template <class Raised>
 int list_candidates(const PixelVertices& vertices, const CornerArrays& corners, int count,
                     bool both_faces, const Clip& clip, const Raised& raised, std::uint8_t* list) {

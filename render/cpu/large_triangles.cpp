@@ -204,8 +204,7 @@ class LargeCluster {
   }
 
   void fill(Point a, Point b, Point c) const {
-    if constexpr (sizeof(Pixel) == sizeof(std::int64_t))
-      stay_on_plane(a, b, c, projection_.perspective);
+    if constexpr (kOnPlane<Pixel>) stay_on_plane(a, b, c, projection_.perspective);
     std::int64_t area = edge_at(a, b, c.x, c.y);
     // Front faces are counter-clockwise, which has a negative area where y points down.
     const bool front = area < 0;
@@ -247,9 +246,9 @@ class LargeCluster {
   void put(std::int64_t at, float depth, bool front) const {
     Pixel& pixel = target_.pixels[at];
     const float depth_mm = depth - projection_.start_mm;
-    if constexpr (std::is_same_v<Pixel, std::int32_t>) {
+    if constexpr (kCounts<Pixel>) {
       if (depth_mm > draw_.ends->of_pixels_mm[at]) pixel += front ? -1 : 1;
-    } else if constexpr (std::is_same_v<Pixel, std::int64_t>) {
+    } else if constexpr (kSums<Pixel>) {
       const std::int64_t steps = steps_at(at, depth_mm);
       pixel += front && draw_.brightness.is_signed ? -steps : steps;
     } else {

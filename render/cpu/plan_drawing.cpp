@@ -57,7 +57,7 @@ Brightness<float> emission_of(const ShellDraw& draw) {
   return {static_cast<float>(draw.value_at_near), static_cast<float>(draw.value_at_far)};
 }
 
-/// What shells of the plan's other maxima do.
+/// Its rank in a maximum without a cue.
 template <class Pixel>
 auto rank_of(const Plan& plan) {
   const auto ranks = static_cast<double>(plan.emission_of_rank.size() - 1);
@@ -241,7 +241,7 @@ class PlanDrawing::Targets {
     const RayEnds ends = at_start ? ends_.starts() : ends_.ends();
     std::vector<std::vector<ClusterDraw<Pixel>>> tasks;
     for (const ShellDraw& draw : brightest_first(pass.draws)) {
-      const bool cut = std::is_same_v<Pixel, std::int32_t> || is_cut(draw);
+      const bool cut = kCounts<Pixel> || is_cut(draw);
       add_tasks<Pixel>(
           *scene.shells[draw.shell],
           {.faces = draw.faces, .brightness = brightness(draw), .ends = cut ? &ends : nullptr},

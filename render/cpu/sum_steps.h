@@ -10,10 +10,9 @@
 
 namespace nacre {
 
-/// The steps in which the crossings of a pass of sums or counts add up: small enough for the
-/// last digit that a float has of the largest crossing, large enough that no crossing and no pixel
-/// overflows. Whole numbers, so
-/// that sums do not depend on the order of their terms.
+/// The steps in which the crossings of a pass of sums or counts add up: small enough for the last
+/// digit that a float has of the largest crossing, large enough that no crossing and no pixel
+/// overflows. Whole numbers, so that sums do not depend on the order of their terms.
 class SumSteps {
  public:
   SumSteps(const Pass& pass, const SceneMeshes& scene, const RayFrame& rays);

@@ -24,7 +24,7 @@ constexpr int kRowsPerTask = 16;
 template <class Pixel>
 void merge_row(std::span<Pixel> into, std::span<const Pixel> from) {
   for (std::size_t x = 0; x < into.size(); ++x) {
-    if constexpr (std::is_signed_v<Pixel> && std::is_integral_v<Pixel>) {
+    if constexpr (kCounts<Pixel> || kSums<Pixel>) {
       into[x] += from[x];
     } else {
       into[x] = std::max(into[x], from[x]);

@@ -21,16 +21,6 @@
 namespace nacre::testing {
 namespace {
 
-const std::array<DepthCue, 3> kCues{{{}, {0.8, 0.2, 0.0}, {-0.7, 0.9, 0.0}}};
-
-Picture draw(const ShellSet& set, std::span<const Tool> tools, const Camera& camera,
-             const RenderOptions& options, const CpuOptions& how = {}) {
-  CpuRenderer renderer(how);
-  renderer.upload(set);
-  renderer.upload_tools(tools);
-  return renderer.render(camera, options);
-}
-
 /// Pixels in which pictures differ by more than rounding, in all that was compared.
 struct Difference {
   std::size_t pixels = 0;

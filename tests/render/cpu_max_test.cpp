@@ -20,18 +20,9 @@ namespace {
 const glm::dvec3 kCenter(100.0, -200.0, 300.0);
 const BoundingSphere kSphere{kCenter, 60.0};
 
-/// A ball with a block sticking out, a ring in it and a small block: no symmetry left.
-ShellSet mixed_set() {
-  return make_set({join(ball_mesh({}, 40.0, 10), block_mesh({20, 20, 20}, {50, 45, 60})),
-                   ring_mesh({}, 25.0, 8.0, 16), block_mesh({-10, -5, -5}, {20, 5, 10})},
-                  kCenter);
-}
-
 Image draw(const ShellSet& set, const Camera& camera, const RenderOptions& options = {},
            const CpuOptions& how = {}) {
-  CpuRenderer renderer(how);
-  renderer.upload(set);
-  return renderer.render(camera, options).volume;
+  return testing::draw(set, {}, camera, options, how).volume;
 }
 
 void expect_exact(const ShellSet& set, const Camera& camera, const RayCheck& check = {}) {
@@ -39,7 +30,7 @@ void expect_exact(const ShellSet& set, const Camera& camera, const RayCheck& che
 }
 
 TEST(CpuMax, IsWhatRaysShowFromAllSides) {
-  const ShellSet set = mixed_set();
+  const ShellSet set = mixed_set(kCenter);
   for (const double azimuth : {0.0, 35.0, 160.0}) {
     for (const double elevation : {0.0, -50.0}) {
       for (const auto field_of_view : {std::optional<double>(), std::optional<double>(1.2)}) {
@@ -58,19 +49,20 @@ TEST(CpuMax, IsWhatRaysShowFromAllSides) {
 TEST(CpuMax, IsWhatRaysShowOfHugeTriangles) {
   for (const auto field_of_view : {std::optional<double>(), std::optional<double>(40 * kDegree)}) {
     for (const double zoom : {3.5, 300.0, 1e5}) {
-      expect_exact(mixed_set(), make_camera({.size = {48, 48},
-                                             .elevation_rad = 35 * kDegree,
-                                             .zoom = zoom,  // the silhouette of a block, straight
-                                             .field_of_view_rad = field_of_view,
-                                             .look_at_mm = kCenter + glm::dvec3(20, 5, 10)},
-                                            kSphere));
+      expect_exact(mixed_set(kCenter),
+                   make_camera({.size = {48, 48},
+                                .elevation_rad = 35 * kDegree,
+                                .zoom = zoom,  // the silhouette of a block, straight
+                                .field_of_view_rad = field_of_view,
+                                .look_at_mm = kCenter + glm::dvec3(20, 5, 10)},
+                               kSphere));
     }
   }
 }
 
 // The eye between, inside and at the centre of shells, and where shells lie behind it.
 TEST(CpuMax, IsWhatRaysShowFromInside) {
-  const ShellSet set = mixed_set();
+  const ShellSet set = mixed_set(kCenter);
   for (const double field_of_view : {40.0, 120.0, 170.0}) {
     for (const double distance : {0.0, 3.0, 24.0, 38.0, 55.0}) {
       expect_exact(set,
@@ -103,11 +95,11 @@ TEST(CpuMax, DrawsPicturesOfOnePixel) {
 
 TEST(CpuMax, DrawsPicturesOf4096Pixels) {
   const Camera camera = make_camera({.size = {4096, 4096}, .azimuth_rad = 35 * kDegree}, kSphere);
-  expect_exact(mixed_set(), camera, {.every = 8191});
+  expect_exact(mixed_set(kCenter), camera, {.every = 8191});
 }
 
 TEST(CpuMax, TilesJoinToTheSamePicture) {
-  const ShellSet set = mixed_set();
+  const ShellSet set = mixed_set(kCenter);
   CpuRenderer renderer;
   renderer.upload(set);
   for (const Camera& camera : cameras(kSphere, {100, 70})) {
@@ -228,7 +220,7 @@ TEST(CpuMax, DetailMovesOutlinesByNoMoreThanAskedFor) {
 }
 
 TEST(CpuMax, RefusesWhatItDoesNotDraw) {
-  const ShellSet set = mixed_set();
+  const ShellSet set = mixed_set(kCenter);
   const Camera camera = make_camera({.size = {16, 16}}, kSphere);
   EXPECT_TRUE(cpu_objection(make_plan(scene_facts(set), camera, {.mode = PictureMode::Iso})));
   EXPECT_THROW(draw(set, camera, {.mode = PictureMode::Iso}), Error);
@@ -236,7 +228,7 @@ TEST(CpuMax, RefusesWhatItDoesNotDraw) {
 }
 
 TEST(CpuMax, RefusesAPlanForShellsThatWereNotUploaded) {
-  const ShellSet set = mixed_set();
+  const ShellSet set = mixed_set(kCenter);
   const Camera camera = make_camera({.size = {16, 16}}, kSphere);
   CpuRenderer renderer;
   const std::array<std::uint32_t, 1> one{1};

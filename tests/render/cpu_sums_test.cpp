@@ -22,20 +22,11 @@
 namespace nacre::testing {
 namespace {
 
-const std::array<DepthCue, 3> kCues{{{}, {0.8, 0.2, 0.0}, {-0.7, 0.9, 0.0}}};
 const std::array<PictureMode, 2> kModes{PictureMode::Sum, PictureMode::Count};
 
 /// What pictures of crossings may differ by, besides where a crossing is missed: an integral by
 /// the rounding of some dozen depths in floats, of a hundred mm each.
 double tolerance_of(PictureMode mode) { return mode == PictureMode::Sum ? 1e-3 : 1e-5; }
-
-Picture draw(const ShellSet& set, std::span<const Tool> tools, const Camera& camera,
-             const RenderOptions& options, const CpuOptions& how = {}) {
-  CpuRenderer renderer(how);
-  renderer.upload(set);
-  renderer.upload_tools(tools);
-  return renderer.render(camera, options);
-}
 
 /// Pixels that differ by more than the tolerance.
 std::size_t far_off(const Image& a, const Image& b, double tolerance) {
@@ -136,13 +127,6 @@ TEST(CpuSumsAlone, RefuseTargetsOfFewBits) {
     EXPECT_THROW(draw(set, {}, camera, halves), Error);
     EXPECT_FALSE(cpu_objection(make_plan(scene_facts(set), camera, {.mode = mode})));
   }
-}
-
-/// A ball with a block sticking out, a ring in it and a small block: no symmetry left.
-ShellSet mixed_set(const glm::dvec3& center) {
-  return make_set({join(ball_mesh({}, 40.0, 10), block_mesh({20, 20, 20}, {50, 45, 60})),
-                   ring_mesh({}, 25.0, 8.0, 16), block_mesh({-10, -5, -5}, {20, 5, 10})},
-                  center);
 }
 
 /// Expects what rays in double show of the very triangles, but for `most_off` of the pixels: at

@@ -27,6 +27,14 @@ Scan small_angiogram() {
   return scan;
 }
 
+Picture draw(const ShellSet& set, std::span<const Tool> tools, const Camera& camera,
+             const RenderOptions& options, const CpuOptions& how) {
+  CpuRenderer renderer(how);
+  renderer.upload(set);
+  renderer.upload_tools(tools);
+  return renderer.render(camera, options);
+}
+
 std::vector<Camera> cameras(const BoundingSphere& sphere, const glm::ivec2& size) {
   const double radius = sphere.radius_mm;
   const CameraOptions turned{.size = size, .azimuth_rad = 0.6, .elevation_rad = 0.35};

@@ -1,14 +1,19 @@
 #pragma once
 
+#include <array>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <span>
 #include <vector>
 
 #include "core/camera.h"
+#include "core/image.h"
 #include "core/picture.h"
 #include "core/shell_set.h"
 #include "core/tool.h"
 #include "core/volume_geometry.h"
+#include "render/cpu/cpu_renderer.h"
+#include "render/render_options.h"
 
 namespace nacre::testing {
 
@@ -28,6 +33,13 @@ Tool tool_of(TriangleMesh mesh, const glm::dvec3& at, const glm::vec3& color);
 
 /// A ball at a place along the view, in parts of the radius, and a rod across it.
 std::vector<std::vector<Tool>> tools_about(const BoundingSphere& sphere, const Camera& camera);
+
+/// No cue, near is bright, far is.
+inline const std::array<DepthCue, 3> kCues{{{}, {0.8, 0.2, 0.0}, {-0.7, 0.9, 0.0}}};
+
+/// Draws on the processor.
+Picture draw(const ShellSet& set, std::span<const Tool> tools, const Camera& camera,
+             const RenderOptions& options, const CpuOptions& how = {});
 
 /// Slabs that start, end, or do both within the sphere.
 std::vector<Slab> slabs(double radius_mm);

@@ -111,4 +111,10 @@ ShellSet nested_balls(int shells, double radius, int rings, const glm::dvec3& ce
   return make_set(std::move(surfaces), center_mm);
 }
 
+ShellSet mixed_set(const glm::dvec3& center_mm) {
+  return make_set({join(ball_mesh({}, 40.0, 10), block_mesh({20, 20, 20}, {50, 45, 60})),
+                   ring_mesh({}, 25.0, 8.0, 16), block_mesh({-10, -5, -5}, {20, 5, 10})},
+                  center_mm);
+}
+
 }  // namespace nacre::testing

@@ -26,4 +26,7 @@ ShellSet make_set(std::vector<TriangleMesh> surfaces, const glm::dvec3& center_m
 /// Balls of radius `radius`, radius (n - 1) / n, ... about the set's centre.
 ShellSet nested_balls(int shells, double radius, int rings, const glm::dvec3& center_mm = {});
 
+/// A ball with a block sticking out, a ring in it and a small block: no symmetry left.
+ShellSet mixed_set(const glm::dvec3& center_mm);
+
 }  // namespace nacre::testing
