@@ -108,6 +108,7 @@ TEST_F(ViewCommand, RefusesWhatItCannotShowInALine) {
   expect_refusal("view noise.glb", 3, "noise.glb");
   expect_refusal("view ball.glb -o page.txt", 2, "expected .html");
   expect_refusal("view ball.glb -o missing/page.html", 2, "missing/page.html");
+  expect_refusal("view ball.nii --tolerance-weight picture -o page.html", 2, "no --tolerance");
   expect_refusal("view ball.glb --port 70000", 2, "--port");
   expect_refusal("view ball.glb --port x", 2, "--port");
 }
