@@ -20,10 +20,6 @@ using nlohmann::ordered_json;
 
 double psnr_db(double rmse) { return -20.0 * std::log10(rmse); }
 
-const char* name_of(ToleranceWeight weight) {
-  return weight == ToleranceWeight::Picture ? kPictureWeight : kFieldWeight;
-}
-
 LadderOptions held_by(const ShellFlags& flags, const EmissionMap& emission, Budget::Unit unit,
                       const std::string& placement) {
   LadderOptions held;
@@ -47,7 +43,7 @@ ShellFlags flags_of(const ShellFlags& flags, const BudgetCandidate& candidate) {
   }
   tried.placement = candidate.placement;
   tried.tolerance = candidate.tolerance;
-  tried.tolerance_weight = name_of(candidate.weight);
+  tried.tolerance_weight = name(candidate.weight);
   tried.quantization = candidate.bits;
   return tried;
 }
@@ -61,7 +57,7 @@ CommonFlags quiet_flags() {
 std::string words(const BudgetCandidate& candidate) {
   return fmt::format(
       "--levels {} --placement {} --tolerance {} --tolerance-weight {} --quantization {}",
-      candidate.levels, candidate.placement, candidate.tolerance, name_of(candidate.weight),
+      candidate.levels, candidate.placement, candidate.tolerance, name(candidate.weight),
       candidate.bits);
 }
 
@@ -155,7 +151,7 @@ ordered_json trade_json(const Budget& budget, const BudgetTrade& trade) {
     const BudgetTrial& trial = trade.trials[i];
     ordered_json row{{"levels", trial.candidate.levels},
                      {"tolerance", trial.candidate.tolerance},
-                     {"tolerance_weight", name_of(trial.candidate.weight)},
+                     {"tolerance_weight", name(trial.candidate.weight)},
                      {"bits", trial.candidate.bits},
                      {"triangles", trial.size.triangles},
                      {"bytes", trial.size.bytes},

@@ -217,6 +217,7 @@ ordered_json to_json(const ShellFileInfo& info) {
   json["window"] = {set.emission.front().value, set.emission.back().value};
   json["placement"] = set.placement;
   json["tolerance"] = set.tolerance;
+  json["tolerance_weight"] = name(set.tolerance_weight);
   if (set.grid) json["quantization_bits"] = set.grid->bits;
   json["pruned"] = pruned_json(set.pruned);
   json["levels"] = levels;
@@ -243,6 +244,11 @@ void say_shells(const ShellFileInfo& info, Reporter& reporter) {
   if (set.grid) {
     reporter.say(fmt::format("grid         {} bits, {:.4g} mm a step", set.grid->bits,
                              set.grid->range_mm / (std::exp2(set.grid->bits) - 1.0)));
+  }
+  if (set.tolerance > 0.0) {
+    const bool is_field = set.tolerance_weight == ToleranceWeight::Field;
+    reporter.say(fmt::format("tolerance    {:.6g} of emission{}", set.tolerance,
+                             is_field ? "" : ", less where maxima show more of it"));
   }
   say_pruned(set.pruned, reporter);
   if (info.coarse) say_coarse(*info.coarse, reporter);

@@ -18,8 +18,8 @@ inline constexpr const char* kAutoCopies = "auto";
 inline constexpr const char* kNoCopies = "none";
 
 /// Values of --tolerance-weight.
-inline constexpr const char* kFieldWeight = "field";
-inline constexpr const char* kPictureWeight = "picture";
+inline constexpr const char* kFieldWeight = name(ToleranceWeight::Field);
+inline constexpr const char* kPictureWeight = name(ToleranceWeight::Picture);
 
 /// Which shells to make of a volume, as flags say it.
 struct ShellFlags : LevelFlags {

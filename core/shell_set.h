@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/emission.h"
+#include "core/tolerance_weight.h"
 #include "core/triangle_mesh.h"
 #include "core/volume.h"
 #include "core/volume_geometry.h"
@@ -72,9 +73,10 @@ struct ShellSet {
   std::vector<Shell> shells;  ///< levels strictly ascending
   glm::dvec3 center_mm{0.0};  ///< LPS; positions are relative to it, floats fail far from 0
   VolumeFacts volume;
-  std::vector<EmissionKnot> emission;    ///< the emission map's knots: the window has two
-  std::string placement = "uniform";     ///< "uniform", "optimal" or "explicit"
-  double tolerance = 0.0;                ///< allowed emission error of the surfaces; 0 = none made
+  std::vector<EmissionKnot> emission;  ///< the emission map's knots: the window has two
+  std::string placement = "uniform";   ///< "uniform", "optimal" or "explicit"
+  double tolerance = 0.0;              ///< allowed emission error of the surfaces; 0 = none made
+  ToleranceWeight tolerance_weight = ToleranceWeight::Field;
   std::optional<QuantizationGrid> grid;  ///< none before snapping
   Pruning pruned;
 };

@@ -278,6 +278,13 @@ ShellFileCoarse coarse_of(const Value& value) {
   return coarse;
 }
 
+ToleranceWeight weight_of(const Value& value) {
+  for (const ToleranceWeight weight : {ToleranceWeight::Field, ToleranceWeight::Picture}) {
+    if (value.text() == name(weight)) return weight;
+  }
+  value.expect("field or picture");
+}
+
 void read_description(ShellFileInfo& info, const Value& extras, std::string_view file) {
   info.format_version = checked_format(extras["format"], file);
   ShellSet& set = info.set;
@@ -285,6 +292,7 @@ void read_description(ShellFileInfo& info, const Value& extras, std::string_view
   set.emission = knots_of(extras["emission"]);
   set.placement = extras["placement"].text();
   set.tolerance = extras["tolerance"].number();
+  if (extras.has("tolerance_weight")) set.tolerance_weight = weight_of(extras["tolerance_weight"]);
   set.center_mm = extras["center_mm"].vector();
   set.grid = grid_of(extras["grid"]);
   // Files of earlier builds pruned nothing and say nothing of it.

@@ -130,6 +130,9 @@ Json extras_json(const ShellSet& set, const StoredSet& stored,
                 {"grid", grid_json(*set.grid)},
                 {"pruned", pruned_json(set.pruned)},
                 {"levels", levels_json(set, stored)}};
+  if (set.tolerance_weight != ToleranceWeight::Field) {
+    nacre["tolerance_weight"] = name(set.tolerance_weight);
+  }
   for (const EmissionKnot& knot : set.emission) {
     nacre["emission"].push_back({knot.value, knot.emission});
   }

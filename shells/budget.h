@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "shells/tolerance_weight.h"
+#include "core/tolerance_weight.h"
 
 namespace nacre {
 

@@ -31,6 +31,9 @@ namespace {
 // Emission error above which contoured triangles are divided, unless the tolerance is larger: less
 // gains little, for several times the triangles.
 constexpr double kFineEnough = 0.02;
+// Where maxima decide, following the field counts more than keeping the volume inside: 0.05 to 0.15
+// dB (docs/decisions/014-simplifying-against-the-field.md).
+constexpr double kPictureVolumeWeight = 1.0;
 
 /// What a volume and its surfaces, while they wait, may hold in memory together; and the surfaces
 /// of a larger volume.
@@ -73,6 +76,7 @@ ShellSet describe(const Volume& volume, const EmissionMap& emission, const Build
   set.emission.assign(emission.knots().begin(), emission.knots().end());
   set.placement = options.placement;
   set.tolerance = options.emission_tolerance;
+  set.tolerance_weight = options.tolerance_weight;
   for (const Level& level : options.levels) {
     Shell shell;
     shell.emission = level.emission;
@@ -171,6 +175,7 @@ TriangleMesh simplify_on_level(const TriangleMesh& contour, const LevelField& of
   if (is_weighted) {
     bounds.field =
         PictureWeight(off_level, mean_slope(refined, bounds.field), options.emission_tolerance);
+    bounds.volume_weight = kPictureVolumeWeight;
   }
   return simplify(refined, bounds);
 }

@@ -10,10 +10,10 @@
 #include "core/emission.h"
 #include "core/progress.h"
 #include "core/shell_set.h"
+#include "core/tolerance_weight.h"
 #include "core/volume.h"
 #include "extract/levels.h"
 #include "shells/snap.h"
-#include "shells/tolerance_weight.h"
 
 namespace nacre {
 

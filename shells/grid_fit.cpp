@@ -9,7 +9,6 @@
 
 #include "core/quantization_grid.h"
 #include "shells/star.h"
-#include "shells/star_fit.h"
 
 namespace nacre {
 namespace {
@@ -61,9 +60,9 @@ glm::dvec3 best_point(const QuantizationGrid& grid, const Star& star, const Star
 
 void fit_to_grid(const ClosedMesh& mesh, const SurfaceField& field,
                  const glm::dmat3& samples_from_mm, const QuantizationGrid& grid,
-                 std::span<glm::dvec3> positions) {
+                 std::span<glm::dvec3> positions, double volume_weight) {
   Star star;
-  StarFit fit(field, samples_from_mm);
+  StarFit fit(field, samples_from_mm, volume_weight);
   std::vector<double> allowed;
   const int rounds = step_samples(grid, samples_from_mm) > kCoarseStep ? 2 : 1;
   for (int round = 0; round < rounds; ++round) {

@@ -6,6 +6,7 @@
 
 #include "core/shell_set.h"
 #include "shells/closed_mesh.h"
+#include "shells/star_fit.h"
 #include "shells/surface_field.h"
 
 namespace nacre {
@@ -19,13 +20,13 @@ namespace nacre {
 ///
 /// @param positions   of the mesh's vertices, in the grid's frame; moved by at most 1.5 steps along
 ///                    each axis, or 2.5 where a step crosses more than a tenth of a sample
-/// @param samples_from_mm  of `StarFit`
+/// @param samples_from_mm, volume_weight  of `StarFit`
 ///
 /// Two vertices may come to share a point, and a triangle that lies across a step may lose its
 /// area: `snap` resolves both. O(vertices), in the order of the vertices; where a step is that
 /// coarse they are gone over twice.
 void fit_to_grid(const ClosedMesh& mesh, const SurfaceField& field,
                  const glm::dmat3& samples_from_mm, const QuantizationGrid& grid,
-                 std::span<glm::dvec3> positions);
+                 std::span<glm::dvec3> positions, double volume_weight = StarFit::kVolumeWeight);
 
 }  // namespace nacre

@@ -3,10 +3,10 @@
 #include <glm/vec3.hpp>
 #include <utility>
 
+#include "core/tolerance_weight.h"
 #include "core/triangle_mesh.h"
 #include "shells/level_field.h"
 #include "shells/surface_field.h"
-#include "shells/tolerance_weight.h"
 
 namespace nacre {
 

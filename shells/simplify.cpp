@@ -98,7 +98,7 @@ EdgeCollapser::EdgeCollapser(const TriangleMesh& surface, const SimplifyOptions&
       changed_(mesh_.vertex_count(), 0),
       distance_(options.tolerance_mm, mesh_.triangle_count()),
       triangles_(mesh_.triangle_count()),
-      fit_(options.field, options.samples_from_mm) {
+      fit_(options.field, options.samples_from_mm, options.volume_weight) {
   if (is_bounded_) measure();
 }
 
@@ -235,7 +235,8 @@ void EdgeCollapser::run() {
 }
 
 void EdgeCollapser::settle_on_grid() {
-  fit_to_grid(mesh_, options_.field, options_.samples_from_mm, *options_.grid, positions_);
+  fit_to_grid(mesh_, options_.field, options_.samples_from_mm, *options_.grid, positions_,
+              options_.volume_weight);
 }
 
 }  // namespace

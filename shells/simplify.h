@@ -6,6 +6,7 @@
 
 #include "core/shell_set.h"
 #include "core/triangle_mesh.h"
+#include "shells/star_fit.h"
 #include "shells/surface_field.h"
 
 namespace nacre {
@@ -25,6 +26,8 @@ struct SimplifyOptions {
   glm::dmat3 samples_from_mm{1.0};
   /// How far the field's detail reaches: its least spacing. No vertex goes farther at a time.
   double spacing_mm = 1.0;
+  /// How much keeping the volume inside counts beside following the field (`StarFit`).
+  double volume_weight = StarFit::kVolumeWeight;
 
   /// Vertices end on this grid, at those of its points from where the triangles follow the field
   /// best: an error that rounding each coordinate by itself would make several times larger.

@@ -11,7 +11,6 @@ namespace {
 
 constexpr int kFewestParts = 2;  // a side's middle at least
 constexpr int kMostParts = 64;
-constexpr double kVolumeWeight = 2.0;  // of the volume, in samples as many as all
 constexpr double kOutOfProportion = 2.0;
 constexpr double kDamping = 1e-3;  // of the normal equations, as a part of their mean eigenvalue
 
@@ -105,7 +104,7 @@ void StarFit::add_volume(const Star& star, const glm::dvec3& p) {
   if (!(twice_area > 0.0) || !(squared_slope > 0.0)) return;
   const double slope = std::sqrt(squared_slope);
   accumulate(slope * volume / twice_area, slope / twice_area * normal,
-             kVolumeWeight * static_cast<double>(count_));
+             volume_weight_ * static_cast<double>(count_));
 }
 
 void StarFit::accumulate(double error, const glm::dvec3& g, double weight) {

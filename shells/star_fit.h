@@ -18,16 +18,20 @@ namespace nacre {
 /// at the middles at least; the ring's own sides stay what they are. A sample has the weight w of
 /// the apex, so that moving this by d changes its error by w g.d to first order: the sum of squares
 /// is least at (sum w^2 g g^T) d = - sum w e g (Gauss, Newton). The volume that the star gains or
-/// loses against what it was counts as one more error, as strong as all samples twice: where the
+/// loses against what it was counts as one more error, as strong as all samples or twice: where the
 /// field is steeper outside than inside, as at a vessel's tip, least squares alone would make
 /// shells shrink, step by step (Lindstrom, Turk 1998, "Fast and Memory Efficient Polygonal
 /// Simplification").
 class StarFit {
  public:
+  static constexpr double kVolumeWeight = 2.0;
+
   /// @param field            may be empty: then nothing is ever wrong
   /// @param samples_from_mm  turns offsets into numbers of samples: voxels from mm
-  StarFit(const SurfaceField& field, const glm::dmat3& samples_from_mm)
-      : field_(field), samples_from_mm_(samples_from_mm) {}
+  /// @param volume_weight    of the volume, in samples as many as all
+  StarFit(const SurfaceField& field, const glm::dmat3& samples_from_mm,
+          double volume_weight = kVolumeWeight)
+      : field_(field), samples_from_mm_(samples_from_mm), volume_weight_(volume_weight) {}
 
   /// Samples the star about p.
   /// @param allowed  largest |error| of each triangle
@@ -59,6 +63,7 @@ class StarFit {
 
   const SurfaceField& field_;
   glm::dmat3 samples_from_mm_;
+  double volume_weight_;
   bool is_within_ = true;
   bool is_pinned_ = false;
   double squares_ = 0.0;

@@ -202,6 +202,8 @@ TEST(DamagedShellFile, SaysWhereTheDescriptionIsWrong) {
   });
   expect_refusal("emission", [](ordered_json& json) { extras(json)["emission"][1][1] = 2; });
   expect_refusal("placement", [](ordered_json& json) { extras(json)["placement"] = "odd"; });
+  expect_refusal("tolerance_weight",
+                 [](ordered_json& json) { extras(json)["tolerance_weight"] = "odd"; });
   expect_refusal("checksum", [](ordered_json& json) { extras(json)["volume"]["checksum"] = "0"; });
   expect_refusal("center_mm", [](ordered_json& json) { extras(json).erase("center_mm"); });
 }

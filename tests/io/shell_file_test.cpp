@@ -87,6 +87,7 @@ TEST(ShellFile, KeepsTheDescriptionExactly) {
   }
   EXPECT_EQ(back.placement, set.placement);
   EXPECT_EQ(back.tolerance, set.tolerance);
+  EXPECT_EQ(back.tolerance_weight, set.tolerance_weight);
   ASSERT_TRUE(back.grid);
   EXPECT_EQ(back.grid->bits, set.grid->bits);
   EXPECT_EQ(back.grid->origin_mm, set.grid->origin_mm);

@@ -25,6 +25,7 @@ ShellSet small_shell_set() {
   set.emission = {{-100.0 / 3.0, 0.0}, {0.1, 0.25}, {1e3 / 7.0, 1.0}};
   set.placement = "explicit";
   set.tolerance = 0.01;
+  set.tolerance_weight = ToleranceWeight::Picture;
   const double step = 5.0 / 1024.0;
   set.grid = QuantizationGrid{glm::dvec3(-2048.0 * step), 4095.0 * step, 12};
 

@@ -8,6 +8,11 @@ enum class ToleranceWeight {
   Picture,  ///< less of it where the field is shallow, and maxima show more of an error
 };
 
+/// "field" or "picture", as in shell files and on the command line.
+constexpr const char* name(ToleranceWeight weight) noexcept {
+  return weight == ToleranceWeight::Picture ? "picture" : "field";
+}
+
 /// Weight of errors where the field is shallowest; 1 where it is steepest.
 inline constexpr double kMostWeight = 9.0;
 /// At a shell's mean slope.
