@@ -1,13 +1,12 @@
 #include "bench/vtk_decimator.h"
 
 #include <vtkCellArray.h>
-#include <vtkIdList.h>
 #include <vtkNew.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkQuadricDecimation.h>
 
-#include <cstdint>
+#include "bench/vtk_surface.h"
 
 namespace nacre {
 namespace {
@@ -21,21 +20,6 @@ void fill(vtkPolyData& mesh, const TriangleMesh& surface) {
   mesh.SetPolys(faces);
 }
 
-TriangleMesh read(vtkPolyData& mesh) {
-  TriangleMesh surface;
-  for (vtkIdType i = 0; i < mesh.GetNumberOfPoints(); ++i) {
-    const double* p = mesh.GetPoint(i);
-    surface.positions.emplace_back(p[0], p[1], p[2]);
-  }
-  vtkNew<vtkIdList> corners;
-  const auto corner = [&](vtkIdType i) { return static_cast<std::uint32_t>(corners->GetId(i)); };
-  for (vtkIdType i = 0; i < mesh.GetPolys()->GetNumberOfCells(); ++i) {
-    mesh.GetPolys()->GetCellAtId(i, corners);
-    surface.triangles.emplace_back(corner(0), corner(1), corner(2));
-  }
-  return surface;
-}
-
 }  // namespace
 
 TriangleMesh by_vtk(const TriangleMesh& surface, std::size_t triangles) {
@@ -47,7 +31,7 @@ TriangleMesh by_vtk(const TriangleMesh& surface, std::size_t triangles) {
   decimation->SetTargetReduction(1.0 - static_cast<double>(triangles) /
                                            static_cast<double>(surface.triangles.size()));
   decimation->Update();
-  return read(*decimation->GetOutput());
+  return surface_of(*decimation->GetOutput());
 }
 
 }  // namespace nacre

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "core/triangle_mesh.h"
+
+class vtkPolyData;
+
+namespace nacre {
+
+/// The points and triangles of VTK's mesh.
+TriangleMesh surface_of(vtkPolyData& mesh);
+
+}  // namespace nacre
