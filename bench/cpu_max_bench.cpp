@@ -272,9 +272,9 @@ void register_cuts(const Scene& scene) {
 
 /// The same anatomy sampled ever more finely, in pictures of one size: cost against work.
 void register_growing() {
-  for (const std::int64_t side : {96, 160, 256, 384, 512, 640, 768}) {
+  for (const std::int64_t side : {112, 256, 384, 512, 640, 768}) {
     const Scene scene{"growing/" + std::to_string(side), "", 400.0, 1400.0, side};
-    for (const double detail_px : {0.0, 0.5, 1.0}) {
+    for (const double detail_px : {0.0, 1.0, 1.5, 2.0}) {
       register_bench(scene.name + "/detail:" + std::to_string(detail_px).substr(0, 3),
                      [=](auto& state) { cpu_frames(state, scene, 24, 2, detail_px); });
     }

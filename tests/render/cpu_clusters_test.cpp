@@ -5,11 +5,8 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <map>
 #include <set>
-#include <utility>
 
-#include "render/cpu/detail_levels.h"
 #include "render/cpu/mesh_clusters.h"
 #include "tests/support/nested_shells.h"
 
@@ -93,58 +90,6 @@ TEST(MeshClusters, AreCompactAndDoNotJoinWhatIsFarApart) {
 }
 
 TEST(MeshClusters, NoneOfNoTriangles) { EXPECT_TRUE(cluster_mesh({}).clusters.empty()); }
-
-/// How often each edge is run along, less how often it is run along the other way.
-std::map<std::pair<std::uint32_t, std::uint32_t>, int> unbalanced_edges(const TriangleMesh& mesh) {
-  std::map<std::pair<std::uint32_t, std::uint32_t>, int> balance;
-  for (const glm::uvec3& t : mesh.triangles) {
-    for (int i = 0; i < 3; ++i) {
-      const std::uint32_t from = t[i];
-      const std::uint32_t to = t[(i + 1) % 3];
-      balance[std::minmax(from, to)] += from < to ? 1 : -1;
-    }
-  }
-  for (auto edge = balance.begin(); edge != balance.end();) {
-    edge = edge->second == 0 ? balance.erase(edge) : std::next(edge);
-  }
-  return balance;
-}
-
-TEST(DetailLevels, StayClosed) {
-  const TriangleMesh mesh = two_rings();
-  for (const double cell_mm : {0.5, 2.0, 5.0, 20.0}) {
-    const MergedVertices merged = merge_vertices(mesh, cell_mm);
-    EXPECT_TRUE(unbalanced_edges(merged.mesh).empty()) << cell_mm;
-    EXPECT_LE(merged.mesh.triangles.size(), mesh.triangles.size());
-  }
-}
-
-TEST(DetailLevels, MoveVerticesNoFurtherThanTheirCellsAreWide) {
-  const TriangleMesh mesh = two_rings();
-  const double cell_mm = 3.0;
-  const MergedVertices merged = merge_vertices(mesh, cell_mm);
-  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-    const glm::vec3 moved = merged.mesh.positions[merged.merged_to[i]] - mesh.positions[i];
-    // Half a cell from a mean within the cell.
-    EXPECT_LE(std::max({std::abs(moved.x), std::abs(moved.y), std::abs(moved.z)}),
-              1.5001 * cell_mm);
-  }
-}
-
-TEST(DetailLevels, HaveFewerTrianglesAndMoreError) {
-  const std::vector<DetailLevel> levels = detail_levels(ball_mesh({}, 50.0, 60), 500);
-  ASSERT_GT(levels.size(), 2U);
-  EXPECT_EQ(levels.front().error_mm, 0.0);
-  for (std::size_t i = 1; i < levels.size(); ++i) {
-    EXPECT_LT(levels[i].mesh.triangles, 0.75 * static_cast<double>(levels[i - 1].mesh.triangles));
-    EXPECT_GT(levels[i].error_mm, levels[i - 1].error_mm);
-  }
-  EXPECT_LE(levels.back().mesh.triangles, 500U);
-}
-
-TEST(DetailLevels, OnlyTheSurfaceItselfWhereItIsSmall) {
-  EXPECT_EQ(detail_levels(block_mesh({0, 0, 0}, {1, 1, 1}), 100).size(), 1U);
-}
 
 }  // namespace
 }  // namespace nacre::testing

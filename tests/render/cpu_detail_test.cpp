@@ -1,0 +1,173 @@
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <glm/geometric.hpp>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "render/cpu/cpu_renderer.h"
+#include "render/cpu/detail_levels.h"
+#include "render/cpu/edge_merging.h"
+#include "tests/support/nested_shells.h"
+
+namespace nacre::testing {
+namespace {
+
+/// Distances are floats of numbers up to 100.
+constexpr double kRounding = 1e-5;
+
+TriangleMesh two_rings() {
+  return join(ring_mesh({}, 25.0, 8.0, 30), ring_mesh({60.0, 0.0, 5.0}, 12.0, 3.0, 20));
+}
+
+/// How often each edge is run along, less how often it is run along the other way.
+std::map<std::pair<std::uint32_t, std::uint32_t>, int> unbalanced_edges(const TriangleMesh& mesh) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> balance;
+  for (const glm::uvec3& t : mesh.triangles) {
+    for (int i = 0; i < 3; ++i) {
+      const std::uint32_t from = t[i];
+      const std::uint32_t to = t[(i + 1) % 3];
+      balance[std::minmax(from, to)] += from < to ? 1 : -1;
+    }
+  }
+  for (auto edge = balance.begin(); edge != balance.end();) {
+    edge = edge->second == 0 ? balance.erase(edge) : std::next(edge);
+  }
+  return balance;
+}
+
+double enclosed_volume(const TriangleMesh& mesh) {
+  double six_times = 0.0;
+  for (const glm::uvec3& t : mesh.triangles) {
+    const glm::dvec3 a(mesh.positions[t.x]);
+    const glm::dvec3 b(mesh.positions[t.y]);
+    six_times += glm::dot(glm::cross(a, b), glm::dvec3(mesh.positions[t.z]));
+  }
+  return six_times / 6.0;
+}
+
+std::vector<glm::vec3> vertices_of(const MeshClusters& mesh) {
+  std::vector<glm::vec3> vertices;
+  for (const Cluster& cluster : mesh.clusters) {
+    const float* x = mesh.positions.data() + cluster.first_position;
+    for (std::size_t i = 0; i < cluster.vertices; ++i) {
+      const std::size_t count = cluster.vertices;
+      vertices.emplace_back(x[i], x[i + count], x[i + 2 * count]);
+    }
+  }
+  return vertices;
+}
+
+TEST(EdgeMerging, LeavesWhatIsClosedClosed) {
+  EdgeMerging merging(two_rings());
+  std::size_t triangles = merging.mesh().triangles.size();
+  double reach_mm = 0.3;
+  while (triangles > 20) {
+    ASSERT_LT(reach_mm, 100.0);
+    merging.merge_pairs(reach_mm);
+    EXPECT_TRUE(unbalanced_edges(merging.mesh()).empty()) << reach_mm;
+    EXPECT_LE(merging.mesh().triangles.size(), triangles);
+    triangles = merging.mesh().triangles.size();
+    reach_mm *= 1.5;
+  }
+}
+
+TEST(EdgeMerging, MovesNoVertexBeyondTheReach) {
+  EdgeMerging merging(two_rings());
+  double reach_mm = 0.3;
+  for (int i = 0; i < 12; ++i) {
+    merging.merge_pairs(reach_mm);
+    EXPECT_LE(merging.farthest_mm(), reach_mm + kRounding);
+    reach_mm *= 1.5;
+  }
+  EXPECT_GT(merging.farthest_mm(), 5.0);
+}
+
+TEST(EdgeMerging, MergesNothingOutOfReach) {
+  EdgeMerging merging(block_mesh({0, 0, 0}, {10, 10, 10}));
+  merging.merge_pairs(4.9);  // to the middle of an edge it is 5
+  EXPECT_EQ(merging.mesh().positions.size(), 8U);
+  EXPECT_EQ(merging.farthest_mm(), 0.0);
+}
+
+TEST(EdgeMerging, LeavesCornersThatItCannotReplace) {
+  EdgeMerging merging(block_mesh({0, 0, 0}, {10, 10, 10}));
+  merging.merge_pairs(9.0);
+  EXPECT_EQ(merging.mesh().triangles.size(), 12U);
+}
+
+TEST(EdgeMerging, StaysNearACurvedSurface) {
+  EdgeMerging merging(ball_mesh({}, 50.0, 120));
+  for (const double reach_mm : {1.0, 1.4, 2.0, 2.8}) merging.merge_pairs(reach_mm);
+  EXPECT_LT(merging.mesh().positions.size(), 120U * 239 / 6);
+  for (const glm::vec3& p : merging.mesh().positions) {
+    EXPECT_NEAR(glm::length(p), 50.0, 0.1 * 2.8);  // what it may leave its planes by
+  }
+}
+
+TEST(EdgeMerging, KeepsWhatIsThinAsThick) {
+  const TriangleMesh thin = ring_mesh({}, 20.0, 1.0, 60);
+  EdgeMerging merging(thin);
+  for (const double reach_mm : {0.3, 0.42, 0.6}) merging.merge_pairs(reach_mm);
+  EXPECT_LT(merging.mesh().triangles.size(), thin.triangles.size() / 4);
+  EXPECT_NEAR(enclosed_volume(merging.mesh()) / enclosed_volume(thin), 1.0, 0.05);
+}
+
+TEST(DetailLevels, HaveFewerTrianglesAndMoreError) {
+  const std::vector<DetailLevel> levels = detail_levels(ball_mesh({}, 50.0, 60), 500);
+  ASSERT_GT(levels.size(), 4U);
+  EXPECT_EQ(levels.front().error_mm, 0.0);
+  for (std::size_t i = 1; i < levels.size(); ++i) {
+    const auto share = static_cast<double>(levels[i].mesh.triangles) /
+                       static_cast<double>(levels[i - 1].mesh.triangles);
+    EXPECT_LT(share, 0.75);
+    EXPECT_GT(share, 0.3);  // twice as fine at most as the one asked for
+    EXPECT_GT(levels[i].error_mm, levels[i - 1].error_mm);
+  }
+  EXPECT_LE(levels.back().mesh.triangles, 500U);
+}
+
+TEST(DetailLevels, HaveAVertexWithinTheirErrorOfEachOfTheSurface) {
+  const TriangleMesh mesh = two_rings();
+  for (const DetailLevel& level : detail_levels(mesh, 100)) {
+    const std::vector<glm::vec3> vertices = vertices_of(level.mesh);
+    for (const glm::vec3& p : mesh.positions) {
+      float nearest = glm::distance(vertices.front(), p);
+      for (const glm::vec3& q : vertices) nearest = std::min(nearest, glm::distance(p, q));
+      EXPECT_LE(nearest, level.error_mm + kRounding);
+    }
+  }
+}
+
+TEST(DetailLevels, OnlyTheSurfaceItselfWhereItIsSmall) {
+  EXPECT_EQ(detail_levels(block_mesh({0, 0, 0}, {1, 1, 1}), 100).size(), 1U);
+}
+
+TEST(DetailLevels, EndWhereNothingCanBeMerged) {
+  TriangleMesh point{{{1, 1, 1}, {1, 1, 1}, {1, 1, 1}}, {{0, 1, 2}, {0, 2, 1}}};
+  EXPECT_LE(detail_levels(point, 1).back().mesh.triangles, 2U);
+  EXPECT_EQ(detail_levels({}, 0).size(), 1U);
+}
+
+TEST(DetailLevels, ShowTheSameForAllThreadsAndInstructions) {
+  const ShellSet set = nested_balls(5, 50.0, 60);
+  const Camera camera = make_camera({.size = {60, 60}, .azimuth_rad = 0.3}, {{}, 60.0});
+  const auto draw = [&](std::size_t threads, InstructionSet instructions) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    CpuRenderer renderer({.detail_px = 1.5, .instructions = instructions});
+    renderer.upload(set);
+    const Image image = renderer.render(camera).volume;
+    EXPECT_LT(renderer.last_frame().triangles, 5U * 2 * 60 * 119);
+    return image.pixels;
+  };
+  const std::vector<float> expected = draw(1, InstructionSet::Baseline);
+  EXPECT_EQ(draw(3, InstructionSet::Baseline), expected);
+  EXPECT_EQ(draw(2, best_instruction_set()), expected);
+}
+
+}  // namespace
+}  // namespace nacre::testing
