@@ -60,6 +60,10 @@ bool is_exact(const QuantizationGrid& grid) noexcept {
   return true;
 }
 
+double unit_mm(const QuantizationGrid& grid) noexcept {
+  return std::ldexp(1.0, odd_times_power(step_mm(grid)).exponent);
+}
+
 glm::vec3 grid_position(const QuantizationGrid& grid, const glm::ivec3& index) noexcept {
   const glm::vec3 position(grid.origin_mm + step_mm(grid) * glm::dvec3(index));
   return position;

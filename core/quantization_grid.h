@@ -23,6 +23,11 @@ double step_mm(const QuantizationGrid& grid) noexcept;
 /// more than 20 bits, when also m = 1 (the encoder multiplies by a rounded 1 / step).
 bool is_exact(const QuantizationGrid& grid) noexcept;
 
+/// The power of two of which the step is an odd multiple: every lattice point is an integer
+/// multiple of it, of at most 2^24.
+/// @pre  is_exact(grid)
+double unit_mm(const QuantizationGrid& grid) noexcept;
+
 /// The lattice point of an index: origin + step * index.
 /// @pre  is_exact(grid), 0 <= index < 2^bits
 glm::vec3 grid_position(const QuantizationGrid& grid, const glm::ivec3& index) noexcept;

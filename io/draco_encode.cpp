@@ -4,17 +4,60 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cstring>
+#include <span>
 
 #include "core/error.h"
+#include "core/quantization_grid.h"
 
 namespace nacre {
 namespace {
 
 constexpr int kSlowest = 10;
 
-/// Fills a Draco mesh, which can be neither moved nor copied.
-void fill(draco::Mesh& result, const TriangleMesh& mesh) {
+/// Draco's parameters of a quantised attribute as they stand in its bytes.
+struct Quantization {
+  glm::vec3 origin;
+  float range;
+  std::uint8_t bits;
+
+  static constexpr std::size_t kBytes = 3 * sizeof(float) + sizeof(float) + 1;
+
+  std::array<std::byte, kBytes> bytes() const {
+    static_assert(std::endian::native == std::endian::little);
+    std::array<std::byte, kBytes> result;
+    std::memcpy(result.data(), &origin, sizeof(origin));
+    std::memcpy(result.data() + sizeof(origin), &range, sizeof(range));
+    result.back() = std::byte{bits};
+    return result;
+  }
+};
+
+/// A grid's parameters, lengths divided by a unit.
+Quantization in_units(const QuantizationGrid& grid, double unit) {
+  return {glm::vec3(grid.origin_mm / unit), static_cast<float>(grid.range_mm / unit),
+          static_cast<std::uint8_t>(grid.bits)};
+}
+
+/// Writes a grid's parameters, the last thing in the bytes, in place of those in other units.
+///
+/// @throws Error  Unsupported if those are not what the bytes end with
+void replace_quantization(std::span<std::byte> bytes, const Quantization& encoded,
+                          const Quantization& meant) {
+  const auto found = encoded.bytes();
+  if (bytes.size() < found.size() || !std::ranges::equal(bytes.last(found.size()), found)) {
+    throw Error(ErrorCode::Unsupported,
+                "found Draco bytes that end otherwise than with their quantisation, expected those "
+                "of version 2.2");
+  }
+  std::ranges::copy(meant.bytes(), bytes.last(found.size()).begin());
+}
+
+/// Fills a Draco mesh, which can be neither moved nor copied. Positions are divided by a unit.
+void fill(draco::Mesh& result, TriangleMesh& mesh, double unit) {
+  for (glm::vec3& p : mesh.positions) p = glm::vec3(glm::dvec3(p) / unit);
   const auto points = static_cast<std::uint32_t>(mesh.positions.size());
   result.set_num_points(points);
   draco::GeometryAttribute layout;
@@ -36,17 +79,20 @@ void fill(draco::Mesh& result, const TriangleMesh& mesh) {
 
 DracoData encode_draco(TriangleMesh&& mesh, const QuantizationGrid& grid, int compression,
                        DracoMethod method) {
-  const glm::vec3 origin(grid.origin_mm);
+  // The encoder passes its parameters on as decimals, six behind the point: right for integers, an
+  // ulp or more off for other floats below 16. In units of the grid all is an integer.
+  const double unit = unit_mm(grid);
+  const Quantization in_integers = in_units(grid, unit);
   const int speed = kSlowest - std::clamp(compression, 0, kSlowest);
   draco::Encoder encoder;
   encoder.SetEncodingMethod(method == DracoMethod::Sequential ? draco::MESH_SEQUENTIAL_ENCODING
                                                               : draco::MESH_EDGEBREAKER_ENCODING);
   encoder.SetSpeedOptions(speed, speed);
   encoder.SetAttributeExplicitQuantization(draco::GeometryAttribute::POSITION, grid.bits, 3,
-                                           &origin.x, static_cast<float>(grid.range_mm));
+                                           &in_integers.origin.x, in_integers.range);
   encoder.SetTrackEncodedProperties(true);
   draco::Mesh input;
-  fill(input, mesh);
+  fill(input, mesh, unit);
   mesh = {};
   draco::EncoderBuffer buffer;
   const draco::Status status = encoder.EncodeMeshToBuffer(input, &buffer);
@@ -59,6 +105,7 @@ DracoData encode_draco(TriangleMesh&& mesh, const QuantizationGrid& grid, int co
   DracoData result;
   const auto* begin = reinterpret_cast<const std::byte*>(buffer.data());
   result.bytes.assign(begin, begin + buffer.size());
+  replace_quantization(result.bytes, in_integers, in_units(grid, 1.0));
   result.counts = {encoder.num_encoded_faces(), encoder.num_encoded_points()};
   return result;
 }

@@ -133,6 +133,39 @@ TEST(ShellFile, ExactGridsAreFixedPointsOfDracosArithmetic) {
   }
 }
 
+/// The small set on a grid of 12 bits with the step odd * 2^exponent, its origin off any whole
+/// step.
+ShellSet on_fine_grid(double odd, int exponent) {
+  const double unit = std::ldexp(1.0, exponent);
+  const double step = odd * unit;
+  const double last = 4095.0;
+  ShellSet set = small_shell_set();
+  const double scale = step / step_mm(*set.grid);
+  set.grid = {glm::dvec3(-2048.0 * step) + unit * glm::dvec3(0.0, 1.0, -odd / 2.0 + 0.5),
+              last * step, 12};
+  for (Shell& shell : set.shells) {
+    for (glm::vec3& p : shell.surface.positions) p *= scale;
+    shell.surface = on_grid(*set.grid, shell.surface);
+  }
+  return set;
+}
+
+// Draco's encoder keeps six decimals of an origin: too few for floats below 16.
+TEST(ShellFile, KeepsPositionsOnGridsOfAnyUnitBitForBit) {
+  for (const double odd : {1.0, 1021.0, 4093.0}) {
+    for (const int exponent : {-90, -40, -24, -20, -15, -9, 0, 20, 60}) {
+      const ShellSet set = on_fine_grid(odd, exponent);
+      ASSERT_TRUE(is_exact(*set.grid)) << odd << " * 2^" << exponent;
+      const ShellSet back = there_and_back(set);
+      for (std::size_t k = 0; k < set.shells.size(); ++k) {
+        EXPECT_EQ(triangles_by_position(back.shells[k].surface),
+                  triangles_by_position(set.shells[k].surface))
+            << "shell " << k << ", step " << odd << " * 2^" << exponent;
+      }
+    }
+  }
+}
+
 TEST(ShellFile, AnEmptyLevelHasNoMesh) {
   const ShellFileInfo info = parse_shell_file_info(encode_shell_set(small_shell_set()), kName);
   EXPECT_GT(info.levels.front().triangles, 0u);
