@@ -86,6 +86,18 @@ void fill(draco::Mesh& mesh, const TriangleMesh& surface) {
   }
 }
 
+void encode(const TriangleMesh& surface, int bits, draco::EncoderBuffer& buffer) {
+  draco::Mesh mesh;
+  fill(mesh, surface);
+  draco::Encoder encoder;
+  encoder.SetEncodingMethod(draco::MESH_EDGEBREAKER_ENCODING);
+  encoder.SetSpeedOptions(0, 0);
+  encoder.SetAttributeQuantization(draco::GeometryAttribute::POSITION, bits);
+  if (!encoder.EncodeMeshToBuffer(mesh, &buffer).ok()) {
+    throw std::runtime_error("Draco refuses a mesh");
+  }
+}
+
 TriangleMesh decode(const draco::EncoderBuffer& bytes) {
   draco::DecoderBuffer input;
   input.Init(bytes.data(), bytes.size());
@@ -122,17 +134,16 @@ std::vector<PlainDecimator> plain_decimators() {
 
 PlainMesh through_draco(const TriangleMesh& surface, int bits) {
   if (surface.triangles.empty()) return {};
-  draco::Mesh mesh;
-  fill(mesh, surface);
-  draco::Encoder encoder;
-  encoder.SetEncodingMethod(draco::MESH_EDGEBREAKER_ENCODING);
-  encoder.SetSpeedOptions(0, 0);
-  encoder.SetAttributeQuantization(draco::GeometryAttribute::POSITION, bits);
   draco::EncoderBuffer buffer;
-  if (!encoder.EncodeMeshToBuffer(mesh, &buffer).ok()) {
-    throw std::runtime_error("Draco refuses a mesh");
-  }
+  encode(surface, bits, buffer);
   return {buffer.size(), decode(buffer)};
+}
+
+std::size_t draco_bytes(const TriangleMesh& surface, int bits) {
+  if (surface.triangles.empty()) return 0;
+  draco::EncoderBuffer buffer;
+  encode(surface, bits, buffer);
+  return buffer.size();
 }
 
 }  // namespace nacre

@@ -26,4 +26,7 @@ struct PlainMesh {
 /// @param bits  of a coordinate
 PlainMesh through_draco(const TriangleMesh& surface, int bits);
 
+/// The bytes alone, without decoding them.
+std::size_t draco_bytes(const TriangleMesh& surface, int bits);
+
 }  // namespace nacre

@@ -80,7 +80,7 @@ ShellSet describe(const Volume& volume, const EmissionMap& emission, const Build
   set.emission.assign(emission.knots().begin(), emission.knots().end());
   set.placement = options.placement;
   set.tolerance = options.emission_tolerance;
-  set.tolerance_weight = options.tolerance_weight;
+  if (options.emission_tolerance > 0.0) set.tolerance_weight = options.tolerance_weight;
   for (const Level& level : options.levels) {
     Shell shell;
     shell.emission = level.emission;

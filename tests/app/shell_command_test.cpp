@@ -384,7 +384,12 @@ TEST_F(ShellCommand, ATolerancesWeightIsWhatIsAskedAndIsKept) {
   };
   const int even = triangles("--tolerance 0.15");
   EXPECT_EQ(triangles("--tolerance 0.15 --tolerance-weight field"), even);
+  const std::string words = "less where maxima show more";
+  EXPECT_EQ(json::parse(nacre("info w.glb --json -").output)["tolerance_weight"], "field");
+  EXPECT_EQ(nacre("info w.glb").output.find(words), std::string::npos);
   EXPECT_GT(triangles("--tolerance 0.15 --tolerance-weight picture"), even);
+  EXPECT_EQ(json::parse(nacre("info w.glb --json -").output)["tolerance_weight"], "picture");
+  EXPECT_NE(nacre("info w.glb").output.find(words), std::string::npos);
   expect_refusal(build + "--tolerance 0.1 --tolerance-weight much -o w.glb", 2, "tolerance-weight");
   for (const std::string flags : {"", "--tolerance 0 ", "--tolerance-mm 0.5 "}) {
     expect_refusal(build + flags + "--tolerance-weight picture -o w.glb", 2,

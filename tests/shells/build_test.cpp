@@ -83,6 +83,45 @@ TEST(Build, SimplifiesWithinTheTolerance) {
   EXPECT_LT(built.report.triangles, built.report.extracted_triangles / 2);
 }
 
+// Small tolerances, up to 0.05 at the mean slope, are simplified by passes before the queue;
+// weighted ones are a third of themselves there.
+TEST(Build, KeepsVolumesInsideOnBothSidesOfPassesOverTheEdges) {
+  for (const ToleranceWeight weight : {ToleranceWeight::Field, ToleranceWeight::Picture}) {
+    const double at_mean_slope = weight == ToleranceWeight::Field ? 1.0 : 3.0;
+    std::size_t finer = 1'000'000;
+    for (const double tolerance : {0.02, 0.05, 0.051, 0.1}) {
+      BuildOptions options;
+      options.levels = uniform_levels(4);
+      options.emission_tolerance = tolerance * at_mean_slope;
+      options.tolerance_weight = weight;
+      const BuiltShells built = build_shells(ball(), EmissionMap::window(0, 200), options);
+      expect_sound(built.set);
+      EXPECT_EQ(built.set.tolerance_weight, weight);
+      EXPECT_LT(built.report.triangles, finer) << name(weight) << ' ' << tolerance;
+      finer = built.report.triangles + built.report.triangles / 10;
+      for (const Shell& shell : built.set.shells) {
+        const double radius = kRadius * (1.0 - shell.emission);
+        if (radius < 3.0) continue;  // a few voxels across: nothing but its tip
+        const double volume = 4.0 / 3.0 * std::numbers::pi * std::pow(radius, 3);
+        // A radius off by the tolerance everywhere would be off by `tolerance * kRadius`: volumes
+        // are kept to two fifths of that, and to contouring's second order.
+        EXPECT_NEAR(std::cbrt(check_shell(shell.surface).volume_mm3 / volume), 1.0,
+                    (0.4 * tolerance * kRadius + 0.1) / radius)
+            << name(weight) << ' ' << tolerance << ' ' << shell.emission;
+      }
+    }
+  }
+}
+
+TEST(Build, StatesAWeightOfATolerance) {
+  BuildOptions options;
+  options.levels = uniform_levels(3);
+  options.tolerance_weight = ToleranceWeight::Picture;
+  options.tolerance_mm = 0.5;
+  const BuiltShells built = build_shells(ball(), EmissionMap::window(0, 200), options);
+  EXPECT_EQ(built.set.tolerance_weight, ToleranceWeight::Field);
+}
+
 TEST(Build, SharesATargetOut) {
   BuildOptions options;
   options.levels = uniform_levels(5);
