@@ -21,7 +21,9 @@ struct DetailLevel {
 /// next they may go the root of two times as far, so there are about half as many triangles; what
 /// saves less than 3 in 10 makes no level.
 ///
-/// About 0.5 us a triangle with all levels, and 1.5 times the memory of the surface besides.
+/// About 0.5 us a triangle with all levels. They keep about 30 bytes a triangle of the surface, 1.7
+/// times its own memory, 14 of them for the surface itself; while they are made it is up to 110,
+/// mostly for `EdgeMerging`.
 std::vector<DetailLevel> detail_levels(const TriangleMesh& mesh, std::size_t least_triangles);
 
 }  // namespace nacre

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -18,6 +19,14 @@ constexpr float kMiddleWeight = 1e-2F;
 /// Of the reach: how far from the planes around it, in the mean, a vertex may be merged. A flat
 /// surface may slide along itself, which shows nowhere; one that leaves its planes shows.
 constexpr float kOffPlanes = 0.1F;
+
+/// The surface's extent in the frame of the groups is at least half of 2 to this, and below it.
+/// Edges are from a float's step of that, 2 to the -14, to 2 to the 10, so that their sixth powers,
+/// as determinants are, keep clear of both ends of a float's range.
+constexpr int kFrameExponent = 10;
+
+/// In that frame, a reach that holds nothing back; its square is finite.
+constexpr double kFarthestReach = 1 << 20;
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
@@ -130,22 +139,25 @@ Number farthest_squared(const VertexGroup<Number>& g, const Point<Number>& x) {
 /// Where a group goes, from the middle of its box: to the point nearest to the planes, half the way
 /// or nowhere, the first from which no vertex is further than the reach.
 template <class Number>
-Point<Number> merged_point(const VertexGroup<Number>& g, float reach_mm) {
+Point<Number> merged_point(const VertexGroup<Number>& g, float reach) {
   const Point<Number> best = nearest_to_planes(g);
   const Point<Number> half{0.5F * best.x, 0.5F * best.y, 0.5F * best.z};
-  const float most = 4.0F * reach_mm * reach_mm;
-  const Number part = farthest_squared(g, best) <= most   ? Number{} + 1.0F
-                      : farthest_squared(g, half) <= most ? Number{} + 0.5F
-                                                          : Number{};
-  return {part * best.x, part * best.y, part * best.z};
+  const float most = 4.0F * reach * reach;
+  // Chosen, not multiplied by 1, 1/2 or 0: of a point that is not finite nothing may be left.
+  const auto whole_way = farthest_squared(g, best) <= most;
+  const auto half_way = farthest_squared(g, half) <= most;
+  const auto chosen = [&](Number whole, Number halved) {
+    return whole_way ? whole : half_way ? halved : Number{};
+  };
+  return {chosen(best.x, half.x), chosen(best.y, half.y), chosen(best.z, half.z)};
 }
 
 /// Whether vertices of both go no further than the reach if they go to the middle of their box.
-bool lie_within(const VertexGroup<float>& u, const VertexGroup<float>& v, float reach_mm) {
+bool lie_within(const VertexGroup<float>& u, const VertexGroup<float>& v, float reach) {
   const float x = greatest(u.hi_x, v.hi_x) - least(u.lo_x, v.lo_x);
   const float y = greatest(u.hi_y, v.hi_y) - least(u.lo_y, v.lo_y);
   const float z = greatest(u.hi_z, v.hi_z) - least(u.lo_z, v.lo_z);
-  return x * x + y * y + z * z <= 4.0F * reach_mm * reach_mm;
+  return x * x + y * y + z * z <= 4.0F * reach * reach;
 }
 
 using GroupNumbers = std::array<std::uint32_t, kLanes>;
@@ -174,11 +186,30 @@ VertexGroup<Floats> side_by_side(const std::vector<VertexGroup<float>>& groups,
 }
 
 /// What merging costs: the squared distance from the planes; negative where it may not be.
-Floats merging_costs(const VertexGroup<Floats>& u, const VertexGroup<Floats>& v, float reach_mm) {
+Floats merging_costs(const VertexGroup<Floats>& u, const VertexGroup<Floats>& v, float reach) {
   const VertexGroup<Floats> group = joined(u, v);
-  const Floats cost = greatest(plane_distance(group, merged_point(group, reach_mm)), Floats{});
-  const float most = kOffPlanes * reach_mm;
-  return cost <= most * most * (group.xx + group.yy + group.zz) ? cost : Floats{} - 1.0F;
+  const Floats cost = plane_distance(group, merged_point(group, reach));
+  const float most = kOffPlanes * reach;
+  // Tested as it is, before rounding's less than nothing becomes 0: what is not a number fails.
+  return cost <= most * most * (group.xx + group.yy + group.zz) ? greatest(cost, Floats{})
+                                                                : Floats{} - 1.0F;
+}
+
+/// The power of two that takes a surface to the frame of the groups: lengths keep their digits. It
+/// and its inverse are normal numbers.
+float frame_scale(const std::vector<glm::vec3>& positions) {
+  if (positions.empty()) return 1.0F;
+  glm::vec3 lo = positions.front();
+  glm::vec3 hi = lo;
+  for (const glm::vec3& p : positions) {
+    lo = glm::min(lo, p);
+    hi = glm::max(hi, p);
+  }
+  const glm::dvec3 size = glm::dvec3(hi) - glm::dvec3(lo);
+  const double extent = std::max({size.x, size.y, size.z});
+  if (!(extent > 0.0)) return 1.0F;
+  constexpr int kMost = std::numeric_limits<float>::max_exponent - 2;
+  return std::ldexp(1.0F, std::clamp(kFrameExponent - 1 - std::ilogb(extent), -kMost, kMost));
 }
 
 }  // namespace
@@ -187,17 +218,20 @@ EdgeMerging::EdgeMerging(const TriangleMesh& mesh)
     : positions_(mesh.positions),
       merged_to_(mesh.positions.size()),
       mesh_(mesh),
+      frame_from_mm_(frame_scale(mesh.positions)),
       groups_(mesh.positions.size()) {
   std::iota(merged_to_.begin(), merged_to_.end(), 0U);
+  const auto in_frame = [&](std::size_t i) { return frame_from_mm_ * positions_[i]; };
   for (std::size_t i = 0; i < groups_.size(); ++i) {
     VertexGroup<float>& group = groups_[i];
-    group.lo_x = group.hi_x = positions_[i].x;
-    group.lo_y = group.hi_y = positions_[i].y;
-    group.lo_z = group.hi_z = positions_[i].z;
+    const glm::vec3 position = in_frame(i);
+    group.lo_x = group.hi_x = position.x;
+    group.lo_y = group.hi_y = position.y;
+    group.lo_z = group.hi_z = position.z;
   }
   for (const glm::uvec3& t : mesh.triangles) {
-    const glm::vec3 a = mesh.positions[t.x];
-    const glm::vec3 normal = glm::cross(mesh.positions[t.y] - a, mesh.positions[t.z] - a);
+    const glm::vec3 a = in_frame(t.x);
+    const glm::vec3 normal = glm::cross(in_frame(t.y) - a, in_frame(t.z) - a);
     const float length = glm::length(normal);
     if (!(length > 0.0F)) continue;
     const glm::vec3 unit = normal / length;
@@ -214,15 +248,16 @@ EdgeMerging::EdgeMerging(const TriangleMesh& mesh)
   }
 }
 
-std::vector<EdgeMerging::Pair> EdgeMerging::pairs_within(float reach_mm) const {
+std::vector<EdgeMerging::Pair> EdgeMerging::pairs_within(float reach) const {
   std::vector<Pair> pairs;
   pairs.reserve(mesh_.triangles.size() + mesh_.triangles.size() / 2);
   GroupNumbers first{};
   GroupNumbers second{};
   std::size_t waiting = 0;
   const auto price = [&] {
+    if (waiting == 0) return;
     const Floats costs =
-        merging_costs(side_by_side(groups_, first), side_by_side(groups_, second), reach_mm);
+        merging_costs(side_by_side(groups_, first), side_by_side(groups_, second), reach);
     for (std::size_t i = 0; i < waiting; ++i) {
       if (costs[i] < 0.0F) continue;
       pairs.push_back({std::bit_cast<std::uint32_t>(+costs[i]), first[i], second[i]});
@@ -234,7 +269,7 @@ std::vector<EdgeMerging::Pair> EdgeMerging::pairs_within(float reach_mm) const {
       const std::uint32_t u = t[corner];
       const std::uint32_t v = t[corner == 2 ? 0 : corner + 1];
       if (u >= v) continue;  // a triangle beyond the edge has it the other way round
-      if (!lie_within(groups_[u], groups_[v], reach_mm)) continue;
+      if (!lie_within(groups_[u], groups_[v], reach)) continue;
       first[waiting] = u;
       second[waiting] = v;
       if (++waiting == kLanes) price();
@@ -259,8 +294,8 @@ void EdgeMerging::sort_by_key(std::vector<Pair>& pairs) {
 }
 
 /// With what each vertex is to be merged: the cheapest pairs first, of those whose ends are free.
-std::vector<std::uint32_t> EdgeMerging::partners_within(float reach_mm) const {
-  std::vector<Pair> pairs = pairs_within(reach_mm);
+std::vector<std::uint32_t> EdgeMerging::partners_within(float reach) const {
+  std::vector<Pair> pairs = pairs_within(reach);
   sort_by_key(pairs);
   std::vector<std::uint32_t> partners(groups_.size(), kNone);
   for (const Pair& pair : pairs) {
@@ -273,7 +308,8 @@ std::vector<std::uint32_t> EdgeMerging::partners_within(float reach_mm) const {
 
 /// @return  the new number of each vertex
 std::vector<std::uint32_t> EdgeMerging::merge_groups(const std::vector<std::uint32_t>& partners,
-                                                     float reach_mm) {
+                                                     float reach) {
+  const float mm_from_frame = 1.0F / frame_from_mm_;
   std::vector<std::uint32_t> numbers(groups_.size());
   std::uint32_t count = 0;
   for (std::uint32_t i = 0; i < numbers.size(); ++i) {
@@ -287,8 +323,9 @@ std::vector<std::uint32_t> EdgeMerging::merge_groups(const std::vector<std::uint
     if (partner != kNone) {
       group = joined(group, groups_[partner]);
       const Point<float> middle = twice_middle(group);
-      const Point<float> to = merged_point(group, reach_mm);
+      const Point<float> to = merged_point(group, reach);
       position = 0.5F * glm::vec3(middle.x, middle.y, middle.z) + glm::vec3(to.x, to.y, to.z);
+      position *= mm_from_frame;
     }
     groups_[count] = group;
     mesh_.positions[count] = position;
@@ -313,17 +350,18 @@ void EdgeMerging::renumber(const std::vector<std::uint32_t>& numbers) {
 }
 
 void EdgeMerging::merge_pairs(double reach_mm) {
-  const auto reach = static_cast<float>(reach_mm);
+  const auto reach =
+      static_cast<float>(std::min<double>(reach_mm * frame_from_mm_, kFarthestReach));
   renumber(merge_groups(partners_within(reach), reach));
 }
 
 double EdgeMerging::farthest_mm() const {
-  double farthest = 0.0;
+  double squared = 0.0;
   for (std::size_t i = 0; i < merged_to_.size(); ++i) {
-    farthest =
-        std::max<double>(farthest, glm::distance(positions_[i], mesh_.positions[merged_to_[i]]));
+    const glm::dvec3 way = glm::dvec3(mesh_.positions[merged_to_[i]]) - glm::dvec3(positions_[i]);
+    squared = std::max(squared, glm::dot(way, way));
   }
-  return farthest;
+  return std::sqrt(squared);
 }
 
 }  // namespace nacre

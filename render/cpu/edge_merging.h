@@ -27,6 +27,9 @@ struct alignas(64) VertexGroup {
 ///
 /// What is left is closed as a chain: every edge is shared by as many triangles one way as the
 /// other, so front and back faces still cover the same pixels.
+///
+/// Groups are kept in a frame of their own, the surface's times a power of two, so that the unit
+/// makes no difference: products of six lengths would leave a float's range.
 class EdgeMerging {
  public:
   explicit EdgeMerging(const TriangleMesh& mesh);
@@ -35,7 +38,8 @@ class EdgeMerging {
   /// from where it was; what would, or would go more than a tenth of that from the planes around it
   /// in the mean, stays.
   ///
-  /// About 100 ns a triangle of `mesh()`.
+  /// About 100 ns a triangle of `mesh()`. Memory is 94 bytes a triangle of the surface at most: 58
+  /// are kept, 32 of them as groups, and 36 are pairs while they are sorted.
   void merge_pairs(double reach_mm);
 
   const TriangleMesh& mesh() const { return mesh_; }
@@ -51,16 +55,17 @@ class EdgeMerging {
     std::uint32_t second;
   };
 
-  std::vector<Pair> pairs_within(float reach_mm) const;
-  std::vector<std::uint32_t> partners_within(float reach_mm) const;
-  std::vector<std::uint32_t> merge_groups(const std::vector<std::uint32_t>& partners,
-                                          float reach_mm);
+  // Reaches of these are in the frame of the groups.
+  std::vector<Pair> pairs_within(float reach) const;
+  std::vector<std::uint32_t> partners_within(float reach) const;
+  std::vector<std::uint32_t> merge_groups(const std::vector<std::uint32_t>& partners, float reach);
   void renumber(const std::vector<std::uint32_t>& numbers);
   static void sort_by_key(std::vector<Pair>& pairs);
 
   std::vector<glm::vec3> positions_;      // of the surface
   std::vector<std::uint32_t> merged_to_;  // of each of those: its index in `mesh_`
   TriangleMesh mesh_;
+  float frame_from_mm_;
   std::vector<VertexGroup<float>> groups_;  // one a vertex of `mesh_`
 };
 

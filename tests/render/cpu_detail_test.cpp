@@ -2,6 +2,7 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <glm/geometric.hpp>
@@ -62,6 +63,11 @@ std::vector<glm::vec3> vertices_of(const MeshClusters& mesh) {
   return vertices;
 }
 
+TriangleMesh scaled(TriangleMesh mesh, float factor) {
+  for (glm::vec3& p : mesh.positions) p *= factor;
+  return mesh;
+}
+
 TEST(EdgeMerging, LeavesWhatIsClosedClosed) {
   EdgeMerging merging(two_rings());
   std::size_t triangles = merging.mesh().triangles.size();
@@ -117,6 +123,44 @@ TEST(EdgeMerging, KeepsWhatIsThinAsThick) {
   EXPECT_NEAR(enclosed_volume(merging.mesh()) / enclosed_volume(thin), 1.0, 0.05);
 }
 
+TEST(EdgeMerging, LeavesWhatIsEmptyEmpty) {
+  EdgeMerging merging({});
+  merging.merge_pairs(1.0);
+  EXPECT_TRUE(merging.mesh().positions.empty());
+  EXPECT_TRUE(merging.mesh().triangles.empty());
+  EXPECT_EQ(merging.farthest_mm(), 0.0);
+}
+
+TEST(EdgeMerging, KeepsPositionsFiniteForAnyReach) {
+  for (const double reach_mm : {0.0, 1e-300, 1e300}) {
+    EdgeMerging merging(two_rings());
+    for (int i = 0; i < 20; ++i) merging.merge_pairs(reach_mm);
+    for (const glm::vec3& p : merging.mesh().positions) EXPECT_LT(glm::length(p), 200.0F);
+  }
+}
+
+/// In units of which determinants of quadrics, sixth powers of lengths, leave a float's range.
+class DetailLevelsInUnits : public ::testing::TestWithParam<int> {};
+
+TEST_P(DetailLevelsInUnits, AreThoseOfTheSameSurfaceInMillimetres) {
+  const float unit_mm = std::ldexp(1.0F, GetParam());  // a power of two: nothing is rounded
+  const std::vector<DetailLevel> expected = detail_levels(two_rings(), 100);
+  const std::vector<DetailLevel> levels = detail_levels(scaled(two_rings(), unit_mm), 100);
+  ASSERT_EQ(levels.size(), expected.size());
+  ASSERT_GT(levels.size(), 4U);
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    EXPECT_EQ(levels[i].error_mm, unit_mm * expected[i].error_mm);
+    EXPECT_EQ(levels[i].mesh.triangles, expected[i].mesh.triangles);
+    EXPECT_EQ(levels[i].mesh.corners, expected[i].mesh.corners);
+    std::vector<float> positions = expected[i].mesh.positions;
+    for (float& x : positions) x *= unit_mm;
+    EXPECT_EQ(levels[i].mesh.positions, positions);
+  }
+}
+
+/// About 1e-9, 1e-7, 1e6 and 1e15.
+INSTANTIATE_TEST_SUITE_P(PowersOfTwo, DetailLevelsInUnits, ::testing::Values(-30, -23, 20, 50));
+
 TEST(DetailLevels, HaveFewerTrianglesAndMoreError) {
   const std::vector<DetailLevel> levels = detail_levels(ball_mesh({}, 50.0, 60), 500);
   ASSERT_GT(levels.size(), 4U);
@@ -148,9 +192,24 @@ TEST(DetailLevels, OnlyTheSurfaceItselfWhereItIsSmall) {
 }
 
 TEST(DetailLevels, EndWhereNothingCanBeMerged) {
-  TriangleMesh point{{{1, 1, 1}, {1, 1, 1}, {1, 1, 1}}, {{0, 1, 2}, {0, 2, 1}}};
-  EXPECT_LE(detail_levels(point, 1).back().mesh.triangles, 2U);
-  EXPECT_EQ(detail_levels({}, 0).size(), 1U);
+  // The ball's many edges keep the mean edge and with it every reach short of the triangle.
+  const TriangleMesh triangle{{{0, 0, 0}, {1e4, 0, 0}, {0, 1e4, 0}}, {{0, 1, 2}, {0, 2, 1}}};
+  const TriangleMesh mesh = join(ball_mesh({}, 1.0, 60), triangle);
+  EXPECT_EQ(detail_levels(mesh, 1).back().mesh.triangles, 2U);
+}
+
+TEST(DetailLevels, EndWithNothingOfASurfaceThatIsAPoint) {
+  const TriangleMesh point{{{1, 1, 1}, {1, 1, 1}, {1, 1, 1}}, {{0, 1, 2}, {0, 2, 1}}};
+  const std::vector<DetailLevel> levels = detail_levels(point, 1);
+  ASSERT_EQ(levels.size(), 2U);
+  EXPECT_EQ(levels.back().mesh.triangles, 0U);
+  EXPECT_EQ(levels.back().error_mm, 0.0);
+}
+
+TEST(DetailLevels, OnlyTheSurfaceItselfWhereItIsEmpty) {
+  const std::vector<DetailLevel> levels = detail_levels({}, 0);
+  ASSERT_EQ(levels.size(), 1U);
+  EXPECT_EQ(levels.front().mesh.triangles, 0U);
 }
 
 TEST(DetailLevels, ShowTheSameForAllThreadsAndInstructions) {
