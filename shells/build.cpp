@@ -31,9 +31,9 @@ namespace {
 // Emission error above which contoured triangles are divided, unless the tolerance is larger: less
 // gains little, for several times the triangles.
 constexpr double kFineEnough = 0.02;
-// Up to such a tolerance at the mean slope, passes over the edges go before their queue: half the
-// time, and the better set at equal bytes. With a larger one they leave a worse set
-// (docs/decisions/014-simplifying-against-the-field.md).
+// Up to such a tolerance at the mean slope, passes over the edges go before their queue: half to
+// nine tenths of the time, and a set as good at equal bytes. With a larger one they leave a worse
+// set (docs/decisions/014-simplifying-against-the-field.md).
 constexpr double kPassesUpTo = 0.05;
 // Where maxima decide, following the field counts more than keeping the volume inside: 0.05 to 0.15
 // dB (docs/decisions/014-simplifying-against-the-field.md).
