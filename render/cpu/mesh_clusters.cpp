@@ -143,10 +143,13 @@ class ClusterBuilder {
     std::vector<glm::vec3> normals;
     glm::vec3 sum(0.0F);
     for (const auto& [a, b, c] : triangles_) {
-      const glm::vec3 normal = glm::cross(position(b) - position(a), position(c) - position(a));
-      const float length = glm::length(normal);
-      if (!(length > 0.0F)) continue;
-      normals.push_back(normal / length);
+      // In double: fourth powers of lengths, in any unit, and of slivers the way they face.
+      const glm::dvec3 from(position(a));
+      const glm::dvec3 normal =
+          glm::cross(glm::dvec3(position(b)) - from, glm::dvec3(position(c)) - from);
+      const double length = glm::length(normal);
+      if (!(length > 0.0)) continue;
+      normals.emplace_back(normal / length);
       sum += normals.back();
     }
     const float length = glm::length(sum);

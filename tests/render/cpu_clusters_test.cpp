@@ -75,6 +75,20 @@ TEST(MeshClusters, LieWithinTheirBoundsAndCones) {
   EXPECT_GT(cones, 0U);
 }
 
+TEST(MeshClusters, HaveTheSameConesInAnyUnit) {
+  const MeshClusters expected = cluster_mesh(two_rings());
+  for (const int exponent : {-70, -30, 30, 70}) {
+    TriangleMesh mesh = two_rings();
+    for (glm::vec3& p : mesh.positions) p *= std::ldexp(1.0F, exponent);
+    const MeshClusters scaled = cluster_mesh(mesh);
+    ASSERT_EQ(scaled.clusters.size(), expected.clusters.size()) << exponent;
+    for (std::size_t i = 0; i < expected.clusters.size(); ++i) {
+      EXPECT_EQ(scaled.clusters[i].cone_axis, expected.clusters[i].cone_axis) << exponent;
+      EXPECT_EQ(scaled.clusters[i].cone_sine, expected.clusters[i].cone_sine) << exponent;
+    }
+  }
+}
+
 TEST(MeshClusters, AreCompactAndDoNotJoinWhatIsFarApart) {
   const TriangleMesh fine = ball_mesh({}, 50.0, 80);  // edges of 2 mm
   const MeshClusters clusters = cluster_mesh(
