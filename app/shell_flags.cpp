@@ -12,14 +12,13 @@ namespace {
 
 /// CLI11's own ranges let NaN through and spell out the largest double.
 CLI::Validator finite_from_zero(double most, const char* expected) {
-  return CLI::Validator(
-      [most, expected](const std::string& text) {
-        double number = std::numeric_limits<double>::quiet_NaN();
-        const bool is_number = CLI::detail::lexical_cast(text, number);
-        const bool is_good = is_number && number >= 0.0 && number <= most;
-        return is_good ? std::string() : fmt::format("found {}, expected {}", text, expected);
-      },
-      "FLOAT");
+  return {[most, expected](const std::string& text) {
+            double number = std::numeric_limits<double>::quiet_NaN();
+            const bool is_number = CLI::detail::lexical_cast(text, number);
+            const bool is_good = is_number && number >= 0.0 && number <= most;
+            return is_good ? std::string() : fmt::format("found {}, expected {}", text, expected);
+          },
+          "FLOAT"};
 }
 
 }  // namespace

@@ -85,6 +85,7 @@ TableVolume angiogram(const TablesFlags& flags, Reporter& reporter) {
 std::vector<Camera> cameras_about(const Volume& volume, int views) {
   const BoundingSphere sphere = bounding_sphere(volume.dims, volume.world_from_voxel);
   std::vector<Camera> cameras;
+  cameras.reserve(static_cast<std::size_t>(views));
   for (int view = 0; view < views; ++view) {
     cameras.push_back(make_camera({.azimuth_rad = 2.0 * std::numbers::pi * view / views}, sphere));
   }

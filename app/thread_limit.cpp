@@ -7,13 +7,15 @@
 namespace nacre {
 
 struct ThreadLimit::Control {
+  explicit Control(std::size_t threads)
+      : control(tbb::global_control::max_allowed_parallelism, threads) {}
+
   tbb::global_control control;
 };
 
 ThreadLimit::ThreadLimit(const CommonFlags& flags) {
   if (flags.threads < 1) return;
-  control_.reset(new Control{tbb::global_control(tbb::global_control::max_allowed_parallelism,
-                                                 static_cast<std::size_t>(flags.threads))});
+  control_ = std::make_unique<Control>(static_cast<std::size_t>(flags.threads));
 }
 
 ThreadLimit::~ThreadLimit() = default;

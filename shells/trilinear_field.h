@@ -30,7 +30,7 @@ class TrilinearField {
   }
 
   /// The same for offsets.
-  glm::dmat3 voxel_from_mm() const noexcept { return glm::dmat3(voxel_from_local_); }
+  glm::dmat3 voxel_from_mm() const noexcept { return static_cast<glm::dmat3>(voxel_from_local_); }
 
   /// The value at a position in voxel coordinates; beyond the box that of its nearest point.
   double value(const glm::dvec3& p_voxel) const noexcept { return value_(*this, p_voxel); }
