@@ -55,6 +55,7 @@ CompressedSet build_one_level(const ShellFlags& /*flags*/, const EmissionVolume&
 
 bool is_simplifying(const ShellFlags& /*flags*/) { return false; }
 
+// NOLINTNEXTLINE(performance-unnecessary-value-param): with the shell tools it is moved from.
 ExplainedError explain_error(const ExplainFlags& /*flags*/, std::optional<Image> /*picture*/,
                              Reporter& /*reporter*/) {
   refuse();

@@ -22,7 +22,7 @@ template <std::floating_point T>
 T nth_sample(std::uint64_t n) {
   using Bits = std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint64_t>;
   constexpr Bits kSign = Bits{1} << (8 * sizeof(T) - 1);
-  const std::uint64_t largest = std::bit_cast<Bits>(std::numeric_limits<T>::max());
+  const auto largest = std::uint64_t{std::bit_cast<Bits>(std::numeric_limits<T>::max())};
   // Magnitudes count down among the negative numbers, then up.
   const Bits bits =
       n <= largest ? static_cast<Bits>(kSign | (largest - n)) : static_cast<Bits>(n - largest - 1);

@@ -1,5 +1,6 @@
 #include "extract/tube_band.h"
 
+#include <cassert>
 #include <glm/geometric.hpp>
 #include <limits>
 
@@ -79,6 +80,7 @@ Way best_way(const Steps& steps, std::size_t n, std::size_t i0, std::size_t j0) 
 std::vector<BandTriangle> tube_band(std::span<const glm::dvec3> loop,
                                     std::span<const glm::dvec3, 6> waist) {
   const std::size_t n = loop.size();
+  assert(n > 0);
   const Steps steps = judge_steps(loop, waist);
   double least = kNever;
   Way best;

@@ -157,6 +157,7 @@ Volume read_slices(const Slices& slices, const std::vector<std::size_t>& order, 
   Volume volume =
       make_volume({common.columns, common.rows, static_cast<std::int64_t>(order.size())}, type);
   std::vector<fs::path> files;
+  files.reserve(order.size());
   for (const std::size_t i : order) files.push_back(slices.files[i]);
   read_dicom_samples(files, common, {volume.samples.data(), volume.samples.size()});
   return volume;

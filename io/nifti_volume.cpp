@@ -108,7 +108,7 @@ double disagreement(const NiftiHeader& header) {
   for (int corner = 0; corner < 8; ++corner) {
     glm::dvec4 p_voxel(0.0, 0.0, 0.0, 1.0);
     for (int axis = 0; axis < 3; ++axis) {
-      const auto last = static_cast<double>(header.dim[static_cast<std::size_t>(axis + 1)] - 1);
+      const auto last = static_cast<double>(header.dim[static_cast<std::size_t>(axis) + 1] - 1);
       if (((corner >> axis) & 1) != 0) p_voxel[axis] = last;
     }
     worst = std::max(worst, glm::length(glm::dvec3((*header.sform - *header.qform) * p_voxel)));
@@ -134,7 +134,7 @@ glm::dmat4 ras_from_voxel(const fs::path& path, NiftiHeader& header, VolumeReadR
   report.warnings.emplace_back("the file states no orientation: axes assumed to run R, A, S");
   glm::dmat4 matrix(1.0);
   for (int axis = 0; axis < 3; ++axis) {
-    matrix[axis][axis] = header.pixdim[static_cast<std::size_t>(axis + 1)];
+    matrix[axis][axis] = header.pixdim[static_cast<std::size_t>(axis) + 1];
   }
   return matrix;
 }

@@ -31,7 +31,8 @@ namespace {
 using LeaksAreTheLibrarys = __lsan::ScopedDisabler;
 #else
 struct LeaksAreTheLibrarys {
-  LeaksAreTheLibrarys() {}  // a constructor, so that an object of it is not an unused variable
+  // A constructor, so that an object of it is not an unused variable.
+  LeaksAreTheLibrarys() {}  // NOLINT(modernize-use-equals-default)
 };
 #endif
 

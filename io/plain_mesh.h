@@ -33,9 +33,9 @@ PlainMesh plain_obj(const std::filesystem::path& path, std::string bytes);
 
 /// The elements `vertex` (x, y, z) and `face` (vertex_indices) of an ASCII or binary PLY of either
 /// byte order, with any other properties and elements beside them.
-PlainMesh plain_ply(const std::filesystem::path& path, std::string bytes);
+PlainMesh plain_ply(const std::filesystem::path& path, std::string_view bytes);
 
 /// A text OFF: one vertex and one face a line, with or without colours and normals.
-PlainMesh plain_off(const std::filesystem::path& path, std::string bytes);
+PlainMesh plain_off(const std::filesystem::path& path, std::string_view bytes);
 
 }  // namespace nacre

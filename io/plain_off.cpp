@@ -95,7 +95,7 @@ class OffLines {
 
 }  // namespace
 
-PlainMesh plain_off(const std::filesystem::path& path, std::string bytes) {
+PlainMesh plain_off(const std::filesystem::path& path, std::string_view bytes) {
   return OffLines(path, bytes).plain();
 }
 

@@ -198,13 +198,13 @@ const PlyElement& element_of(const std::filesystem::path& path, const PlyHeader&
 
 }  // namespace
 
-PlainMesh plain_ply(const std::filesystem::path& path, std::string bytes) {
+PlainMesh plain_ply(const std::filesystem::path& path, std::string_view bytes) {
   const PlyHeader header = read_ply_header(path, bytes);
   const PlyElement& vertex = element_of(path, header, "vertex");
   const PlyElement& face = element_of(path, header, "face");
   check_vertex(path, vertex);
   check_face(path, face);
-  PlyBody body(std::string_view(bytes).substr(header.body_offset), header.encoding);
+  PlyBody body(bytes.substr(header.body_offset), header.encoding);
   std::string vertices;
   std::string faces;
   for (const PlyElement& element : header.elements) {

@@ -84,7 +84,8 @@ glm::dmat4 read_pose(const std::filesystem::path& path) {
   glm::dmat4 pose(1.0);
   for (int row = 0; row < 4; ++row) {
     for (int column = 0; column < 4; ++column) {
-      pose[column][row] = numbers[static_cast<std::size_t>(4 * row + column)];
+      pose[column][row] =
+          numbers[4 * static_cast<std::size_t>(row) + static_cast<std::size_t>(column)];
     }
   }
   check_rigid(path, pose);

@@ -31,7 +31,7 @@ std::optional<RawHeader> parse(std::string_view text) {
     if (!count || *count < 1) return std::nullopt;
     header.dims[axis] = *count;
     if (parts.size() == 4) continue;
-    const auto spacing = parse_number<double>(parts[static_cast<std::size_t>(4 + axis)]);
+    const auto spacing = parse_number<double>(parts[4 + static_cast<std::size_t>(axis)]);
     if (!spacing || !std::isfinite(*spacing) || *spacing <= 0.0) return std::nullopt;
     header.spacing_mm[axis] = *spacing;
   }

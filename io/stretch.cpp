@@ -138,11 +138,8 @@ class StretchReader::Source {
   /// gzip files may be several streams one after the other (pigz, bgzip); what follows the last
   /// one and is no gzip stream is not data.
   void next_member() {
-    if (zlib_.avail_in == 0 && !refill()) {
-      finished_ = true;
-    } else if (zlib_.next_in[0] != 0x1f || inflateReset(&zlib_) != Z_OK) {
-      finished_ = true;
-    }
+    const bool has_more = zlib_.avail_in > 0 || refill();
+    finished_ = finished_ || !has_more || zlib_.next_in[0] != 0x1f || inflateReset(&zlib_) != Z_OK;
   }
 
   Stretch stretch_;

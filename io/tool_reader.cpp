@@ -40,10 +40,10 @@ PlainMesh plain_mesh(const std::filesystem::path& path, MeshFormat format, std::
   switch (format) {
     case MeshFormat::Stl: return plain_stl(path, std::move(bytes));
     case MeshFormat::Obj: return plain_obj(path, std::move(bytes));
-    case MeshFormat::Ply: return plain_ply(path, std::move(bytes));
+    case MeshFormat::Ply: return plain_ply(path, bytes);
     case MeshFormat::Off: break;
   }
-  return plain_off(path, std::move(bytes));
+  return plain_off(path, bytes);
 }
 
 }  // namespace

@@ -14,8 +14,8 @@ VoxelCrop parse_voxel_crop(std::string_view text) {
   VoxelCrop crop;
   bool good = parts.size() == 6;
   for (int axis = 0; good && axis < 3; ++axis) {
-    const auto first = parse_number<std::int64_t>(parts[static_cast<std::size_t>(2 * axis)]);
-    const auto last = parse_number<std::int64_t>(parts[static_cast<std::size_t>(2 * axis + 1)]);
+    const auto first = parse_number<std::int64_t>(parts[2 * static_cast<std::size_t>(axis)]);
+    const auto last = parse_number<std::int64_t>(parts[2 * static_cast<std::size_t>(axis) + 1]);
     good = first && last && *first >= 0 && *first <= *last;
     if (good) crop.first[axis] = *first;
     if (good) crop.last[axis] = *last;
