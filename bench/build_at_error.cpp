@@ -7,7 +7,7 @@
 // kTurns. PSNR is of maximum projections over a certificate's seven views, 256 x 256, over all
 // pixels; VTK's contours are open at the volume's border, so that its error is measured of closed
 // ones that its filter has decimated alike. Bytes are those of the compressed meshes, VTK's those
-// of the open ones that are timed. Ours leaves out specks, as `build` does; VTK has no such filter.
+// of the open ones that are timed. Ours leaves out specks, as `build` does; VTK's ways keep them.
 #include <fmt/core.h>
 #include <tbb/parallel_for.h>
 
@@ -99,7 +99,7 @@ class Comparison {
     BuildOptions options;
     options.levels = levels_;
     options.emission_tolerance = tolerance;
-    if (tolerance > 0.0) options.tolerance_weight = ToleranceWeight::Picture;
+    options.tolerance_weight = ToleranceWeight::Picture;
     options.quantization_bits = bits;
     options.min_component_mm3 = default_speck_mm3(volume_.world_from_voxel);
     Made made{build_shells(volume_, emission_, options).set};

@@ -55,9 +55,8 @@ void replace_quantization(std::span<std::byte> bytes, const Quantization& encode
   std::ranges::copy(meant.bytes(), bytes.last(found.size()).begin());
 }
 
-/// Fills a Draco mesh, which can be neither moved nor copied. Positions are divided by a unit.
-void fill(draco::Mesh& result, TriangleMesh& mesh, double unit) {
-  for (glm::vec3& p : mesh.positions) p = glm::vec3(glm::dvec3(p) / unit);
+/// Fills a Draco mesh, which can be neither moved nor copied.
+void fill(draco::Mesh& result, const TriangleMesh& mesh) {
   const auto points = static_cast<std::uint32_t>(mesh.positions.size());
   result.set_num_points(points);
   draco::GeometryAttribute layout;
@@ -92,7 +91,8 @@ DracoData encode_draco(TriangleMesh&& mesh, const QuantizationGrid& grid, int co
                                            &in_integers.origin.x, in_integers.range);
   encoder.SetTrackEncodedProperties(true);
   draco::Mesh input;
-  fill(input, mesh, unit);
+  for (glm::vec3& p : mesh.positions) p = glm::vec3(glm::dvec3(p) / unit);
+  fill(input, mesh);
   mesh = {};
   draco::EncoderBuffer buffer;
   const draco::Status status = encoder.EncodeMeshToBuffer(input, &buffer);

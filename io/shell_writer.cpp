@@ -27,6 +27,10 @@ constexpr std::size_t kAlignment = 4;
 std::size_t aligned(std::size_t size) { return (size + kAlignment - 1) / kAlignment * kAlignment; }
 
 void check_surface(const TriangleMesh& surface, const QuantizationGrid& grid) {
+  if (!is_exact(grid)) {
+    throw Error(ErrorCode::BadArgument,
+                "shell: found a grid whose points are not floats, expected an exact one");
+  }
   for (const glm::vec3& p : surface.positions) {
     if (!is_on(grid, p)) {
       throw Error(

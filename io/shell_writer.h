@@ -47,7 +47,8 @@ struct ShellWriteOptions {
 /// Compresses one surface of a set, which is gone as soon as its last copy is needed no more.
 ///
 /// @param compression  see `ShellWriteOptions`
-/// @throws Error       BadArgument if a position is not on the grid, or an index is out of range
+/// @throws Error       BadArgument if the grid is not exact, a position not on it, or an index out
+///                     of range
 CompressedShell compress_shell(TriangleMesh&& surface, const QuantizationGrid& grid,
                                int compression = 10);
 

@@ -139,7 +139,7 @@ class StretchReader::Source {
   /// one and is no gzip stream is not data.
   void next_member() {
     const bool has_more = zlib_.avail_in > 0 || refill();
-    finished_ = finished_ || !has_more || zlib_.next_in[0] != 0x1f || inflateReset(&zlib_) != Z_OK;
+    finished_ = !has_more || zlib_.next_in[0] != 0x1f || inflateReset(&zlib_) != Z_OK;
   }
 
   Stretch stretch_;

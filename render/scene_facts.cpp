@@ -4,7 +4,6 @@
 #include <glm/vec4.hpp>
 
 namespace nacre {
-namespace {
 
 Box bounds_of(std::span<const glm::vec3> positions) {
   if (positions.empty()) return {glm::dvec3(1.0), glm::dvec3(-1.0)};
@@ -16,8 +15,6 @@ Box bounds_of(std::span<const glm::vec3> positions) {
   }
   return {glm::dvec3(lo), glm::dvec3(hi)};
 }
-
-}  // namespace
 
 SceneFacts scene_facts(const ShellSet& set, std::span<const Tool> tools) {
   SceneFacts facts;

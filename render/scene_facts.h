@@ -17,6 +17,9 @@ struct Box {
   glm::dvec3 hi{0.0};
 };
 
+/// The box of positions; empty if there are none.
+Box bounds_of(std::span<const glm::vec3> positions);
+
 /// What planning a picture needs to know of a shell: nothing that takes decoding it.
 struct ShellFacts {
   double representative = 0.0;  ///< r_k, the emission shown for the layer above this shell

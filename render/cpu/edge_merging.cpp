@@ -10,6 +10,8 @@
 #include <limits>
 #include <numeric>
 
+#include "render/scene_facts.h"
+
 namespace nacre {
 namespace {
 
@@ -198,14 +200,8 @@ Floats merging_costs(const VertexGroup<Floats>& u, const VertexGroup<Floats>& v,
 /// The power of two that takes a surface to the frame of the groups: lengths keep their digits. It
 /// and its inverse are normal numbers.
 float frame_scale(const std::vector<glm::vec3>& positions) {
-  if (positions.empty()) return 1.0F;
-  glm::vec3 lo = positions.front();
-  glm::vec3 hi = lo;
-  for (const glm::vec3& p : positions) {
-    lo = glm::min(lo, p);
-    hi = glm::max(hi, p);
-  }
-  const glm::dvec3 size = glm::dvec3(hi) - glm::dvec3(lo);
+  const Box bounds = bounds_of(positions);
+  const glm::dvec3 size = bounds.hi - bounds.lo;
   const double extent = std::max({size.x, size.y, size.z});
   if (!(extent > 0.0)) return 1.0F;
   constexpr int kMost = std::numeric_limits<float>::max_exponent - 2;

@@ -6,6 +6,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "render/scene_facts.h"
+
 namespace nacre {
 namespace {
 
@@ -25,13 +27,9 @@ struct KeyedTriangle {
 };
 
 std::vector<KeyedTriangle> morton_keys(const TriangleMesh& mesh) {
-  glm::vec3 lo = mesh.positions.front();
-  glm::vec3 hi = lo;
-  for (const glm::vec3& p : mesh.positions) {
-    lo = glm::min(lo, p);
-    hi = glm::max(hi, p);
-  }
-  const glm::vec3 size = hi - lo;
+  const Box bounds = bounds_of(mesh.positions);
+  const glm::vec3 lo(bounds.lo);
+  const glm::vec3 size = glm::vec3(bounds.hi) - lo;
   // Cubic cells: compact clusters whatever the shape of the bounds.
   const float cells =
       static_cast<float>(kMortonCells - 1) / (3.0F * std::max({size.x, size.y, size.z, 1e-30F}));

@@ -166,6 +166,15 @@ TEST(ShellFile, KeepsPositionsOnGridsOfAnyUnitBitForBit) {
   }
 }
 
+TEST(ShellFile, AGridThatIsNotExactIsRefusedForOneShellToo) {
+  const ShellSet set = small_shell_set();
+  for (const double range_mm : {0.0, 0.1}) {
+    const QuantizationGrid grid{set.grid->origin_mm, range_mm, 12};
+    EXPECT_THROW(compress_shell({}, grid), Error);
+    EXPECT_THROW(pack_shell({}, grid), Error);
+  }
+}
+
 TEST(ShellFile, AnEmptyLevelHasNoMesh) {
   const ShellFileInfo info = parse_shell_file_info(encode_shell_set(small_shell_set()), kName);
   EXPECT_GT(info.levels.front().triangles, 0u);

@@ -21,10 +21,6 @@ namespace {
 /// Distances are floats of numbers up to 100.
 constexpr double kRounding = 1e-5;
 
-TriangleMesh two_rings() {
-  return join(ring_mesh({}, 25.0, 8.0, 30), ring_mesh({60.0, 0.0, 5.0}, 12.0, 3.0, 20));
-}
-
 /// How often each edge is run along, less how often it is run along the other way.
 std::map<std::pair<std::uint32_t, std::uint32_t>, int> unbalanced_edges(const TriangleMesh& mesh) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> balance;
@@ -61,11 +57,6 @@ std::vector<glm::vec3> vertices_of(const MeshClusters& mesh) {
     }
   }
   return vertices;
-}
-
-TriangleMesh scaled(TriangleMesh mesh, float factor) {
-  for (glm::vec3& p : mesh.positions) p *= factor;
-  return mesh;
 }
 
 TEST(EdgeMerging, LeavesWhatIsClosedClosed) {

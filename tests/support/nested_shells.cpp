@@ -87,6 +87,15 @@ TriangleMesh join(TriangleMesh a, const TriangleMesh& b) {
   return a;
 }
 
+TriangleMesh scaled(TriangleMesh mesh, float factor) {
+  for (glm::vec3& p : mesh.positions) p *= factor;
+  return mesh;
+}
+
+TriangleMesh two_rings() {
+  return join(ring_mesh({}, 25.0, 8.0, 30), ring_mesh({60.0, 0.0, 5.0}, 12.0, 3.0, 20));
+}
+
 ShellSet make_set(std::vector<TriangleMesh> surfaces, const glm::dvec3& center_mm) {
   ShellSet set;
   set.center_mm = center_mm;

@@ -20,6 +20,12 @@ TriangleMesh ring_mesh(const glm::dvec3& center, double major_radius, double min
 /// Two meshes as one.
 TriangleMesh join(TriangleMesh a, const TriangleMesh& b);
 
+/// A mesh times a factor, about the origin.
+TriangleMesh scaled(TriangleMesh mesh, float factor);
+
+/// A ring and, beside it, a smaller one.
+TriangleMesh two_rings();
+
 /// A set of these surfaces, outermost first, with the representatives k / n.
 ShellSet make_set(std::vector<TriangleMesh> surfaces, const glm::dvec3& center_mm = {});
 
