@@ -69,10 +69,21 @@ struct BrickCell {
 using RaiseMaxima = void (*)(const LaneRays&, const BrickSamples&, const BrickCell&,
                              const LaneRectangle&);
 
-/// A line that no emission map value exceeds: T(v) <= at_0 + slope * v.
+/// A line that no value of an emission map above its lowest exceeds: T(v) <= at_0 + slope * v.
 struct EmissionBound {
   double at_0;
   double slope;
+};
+
+/// An emission map of one linear piece, which kernels take at the ends of a part themselves, as
+/// `EmissionMap` does, operation by operation. `is_one` is false where a map has more pieces.
+struct OnePiece {
+  double lo;
+  double hi;
+  double width;   ///< hi - lo, finite
+  double bottom;  ///< emission up to lo
+  double top;     ///< emission from hi on
+  bool is_one;
 };
 
 /// What to do with a part of a ray.
@@ -81,10 +92,15 @@ struct PartVisitor {
   void* context;
 };
 
-/// Visits each ray through a cell, by its place in the arrays, whose cued emission may exceed its
-/// best: `cell.greatest` (an emission times a cue) does, and so does the bound times the cue.
+/// Raises `best` of the rays through a cell to the cued emission at the ends of their parts (where
+/// the map is one piece), and visits each ray, by its place in the arrays, whose cued emission may
+/// exceed its best still: `cell.greatest` (an emission times a cue) does, and so does a coefficient
+/// of the bound times the cue.
+///
+/// @pre  best is no less than the map's lowest times the cue anywhere on the ray
 using VisitParts = void (*)(const LaneRays&, const BrickSamples&, const BrickCell&,
-                            const LaneRectangle&, const EmissionBound&, const PartVisitor&);
+                            const LaneRectangle&, const EmissionBound&, const OnePiece&,
+                            const PartVisitor&);
 // NOLINTEND(modernize-avoid-c-arrays)
 
 /// The greatest corner of each of a brick's 4^3 cells, x fastest; returns one bit a cell, set where
@@ -92,7 +108,11 @@ using VisitParts = void (*)(const LaneRays&, const BrickSamples&, const BrickCel
 using GreatestCorners = unsigned long long (*)(const BrickSamples&, double floor,
                                                double greatest[64]);
 
+/// The least `best` within a rectangle; infinity if it is empty.
+using LeastBest = double (*)(const LaneRays&, const LaneRectangle&);
+
 struct CellKernel {
+  LeastBest least_best;
   GreatestCorners greatest_corners;
   RaiseMaxima raise_maxima;
   VisitParts visit_parts;

@@ -182,26 +182,106 @@ void raise(const LaneRays& rays, const BrickSamples& brick, const BrickCell& cel
                    });
 }
 
+/// T, as `EmissionMap` has it.
+inline Doubles emission_of(const OnePiece& map, const Doubles& value) {
+  const Doubles zero = value - value;
+  const Doubles bottom = zero + map.bottom;
+  const Doubles top = zero + map.top;
+  const Doubles s = (value - map.lo) / map.width;
+  const Doubles between = least(greatest(map.bottom * (1.0 - s) + map.top * s, bottom), top);
+  const Doubles risen = value >= map.hi ? top : between;
+  return value > map.lo ? risen : bottom;
+}
+
+/// The cue at both ends of a part.
+struct EndCues {
+  Doubles enter;
+  Doubles exit;
+};
+
+inline EndCues cues_of(const LaneRays& rays, std::size_t i, const Passage& passage) {
+  const Doubles at = load(rays.beta_at + i);
+  const Doubles rise = load(rays.beta_rise + i);
+  const Doubles none = at - at;
+  return {greatest(at + rise * passage.t_enter, none), greatest(at + rise * passage.t_exit, none)};
+}
+
+/// Raises `best` to what the ends of the parts show, and returns it.
+inline Doubles raise_to_ends(const LaneRays& rays, std::size_t i, const Cubics& f,
+                             const EndCues& beta, const OnePiece& map, const Mask& mask) {
+  const Doubles before = load(rays.best + i);
+  const Doubles ends =
+      greatest(beta.enter * emission_of(map, f.b[0]), beta.exit * emission_of(map, f.b[3]));
+  const Mask raised = mask & (ends > before);
+  const Doubles best = raised ? ends : before;
+  if (bits(raised) != 0) store(rays.best + i, best);
+  return best;
+}
+
+/// Bernstein coefficients of bound times cue, as `product` (quartic.h).
+struct Quartics {
+  Doubles c[5];
+};
+
+inline Quartics bounds_of(const Cubics& f, const EndCues& beta, const EmissionBound& bound) {
+  const Doubles b0 = bound.at_0 + bound.slope * f.b[0];
+  const Doubles b1 = bound.at_0 + bound.slope * f.b[1];
+  const Doubles b2 = bound.at_0 + bound.slope * f.b[2];
+  const Doubles b3 = bound.at_0 + bound.slope * f.b[3];
+  return {{beta.enter * b0, 0.25 * (beta.exit * b0) + 0.75 * (beta.enter * b1),
+           0.5 * (beta.exit * b1 + beta.enter * b2),
+           0.75 * (beta.exit * b2) + 0.25 * (beta.enter * b3), beta.exit * b3}};
+}
+
+/// A coefficient that is no number is not below.
+inline Mask inner_stay_below(const Quartics& q, const Doubles& best) {
+  return (q.c[1] <= best) & (q.c[2] <= best) & (q.c[3] <= best);
+}
+inline Mask ends_stay_below(const Quartics& q, const Doubles& best) {
+  return (q.c[0] <= best) & (q.c[4] <= best);
+}
+
 template <bool kSlack>
 void visit_each(const LaneRays& rays, const BrickSamples& brick, const BrickCell& cell,
-                const LaneRectangle& rectangle, const EmissionBound& bound,
+                const LaneRectangle& rectangle, const EmissionBound& bound, const OnePiece& map,
                 const PartVisitor& visitor) {
   for_rays<kSlack>(
       rays, brick, cell, rectangle,
       [&](std::size_t i, const Passage& passage, const Cubics& f, const Mask& mask) {
-        const Doubles at = load(rays.beta_at + i);
-        const Doubles rise = load(rays.beta_rise + i);
-        const Doubles beta = greatest(at + rise * passage.t_enter, at + rise * passage.t_exit);
-        const Doubles value = greatest(greatest(f.b[0], f.b[1]), greatest(f.b[2], f.b[3]));
-        const Doubles reach = beta * (bound.at_0 + bound.slope * value);
-        // A bound that is no number rejects nothing.
-        unsigned left = bits(mask & ~(reach <= load(rays.best + i)));
-        for (; left != 0; left &= left - 1) {
+        const EndCues beta = cues_of(rays, i, passage);
+        const Doubles most = greatest(beta.enter, beta.exit) * map.top;
+        const Quartics q = bounds_of(f, beta, bound);
+        Doubles best = load(rays.best + i);
+        Mask brighter =
+            mask & ~((most <= best) | (inner_stay_below(q, best) & ends_stay_below(q, best)));
+        if (bits(brighter) == 0) return;
+        if (map.is_one) {
+          best = raise_to_ends(rays, i, f, beta, map, brighter);
+          // The ends are seen; but beyond the map's end the bound lies above it.
+          const Mask ends = (greatest(f.b[0], f.b[3]) <= map.hi) | ends_stay_below(q, best);
+          brighter &= ~((most <= best) | (inner_stay_below(q, best) & ends));
+        }
+        for (unsigned left = bits(brighter); left != 0; left &= left - 1) {
           const int lane = __builtin_ctz(left);
           visitor.visit(visitor.context, i + static_cast<std::size_t>(lane),
                         part_of(f, passage, lane));
         }
       });
+}
+
+double least_best(const LaneRays& rays, const LaneRectangle& rectangle) {
+  Doubles result = Doubles{} + __builtin_inf();
+  for (int y = rectangle.y0; y < rectangle.y1; ++y) {
+    const double* row = rays.best + static_cast<std::size_t>(y) * rays.stride;
+    int x = rectangle.x0;
+    for (; x + kLanes <= rectangle.x1; x += kLanes) result = least(result, load(row + x));
+    for (; x < rectangle.x1; ++x) result = least(result, Doubles{} + row[x]);
+  }
+  double least_lane = result[0];
+  for (int lane = 1; lane < kLanes; ++lane) {
+    least_lane = result[lane] < least_lane ? result[lane] : least_lane;
+  }
+  return least_lane;
 }
 
 unsigned long long greatest_corners(const BrickSamples& brick, double floor,
@@ -233,15 +313,17 @@ void raise_maxima(const LaneRays& rays, const BrickSamples& brick, const BrickCe
 }
 
 void visit_parts(const LaneRays& rays, const BrickSamples& brick, const BrickCell& cell,
-                 const LaneRectangle& rectangle, const EmissionBound& bound,
+                 const LaneRectangle& rectangle, const EmissionBound& bound, const OnePiece& map,
                  const PartVisitor& visitor) {
   (rays.slack[0] != nullptr ? visit_each<true> : visit_each<false>)(rays, brick, cell, rectangle,
-                                                                    bound, visitor);
+                                                                    bound, map, visitor);
 }
 
 }  // namespace
 
-CellKernel cell_kernel() noexcept { return {greatest_corners, raise_maxima, visit_parts}; }
+CellKernel cell_kernel() noexcept {
+  return {least_best, greatest_corners, raise_maxima, visit_parts};
+}
 
 }  // namespace nacre::NACRE_KERNEL
 // NOLINTEND(modernize-avoid-c-arrays)

@@ -28,17 +28,35 @@ class CellRectangles {
   /// @param side        cells along its edge
   PixelRange of(const glm::ivec3& first_cell, int side, const PixelRange& frame) const;
 
-  /// The pixels that cell `index` (x + 4 y + 16 z) of the brick may cover: as `of` with side 1.
-  PixelRange of_cell(const glm::ivec3& first_cell, int index, const PixelRange& frame) const {
-    if (perspective_) {
-      return of(first_cell + glm::ivec3(index & 3, (index >> 2) & 3, index >> 4), 1, frame);
+  /// The same of each cell of a brick.
+  class OfBrick {
+   public:
+    /// @param all  outlives this object
+    OfBrick(const CellRectangles& all, const glm::ivec3& first_cell, const PixelRange& frame)
+        : all_(all),
+          first_cell_(first_cell),
+          frame_(frame),
+          x_(all.center_px_.x + all.x_(glm::dvec3(first_cell))),
+          y_(all.center_px_.y - all.y_(glm::dvec3(first_cell))) {}
+
+    /// The pixels that cell `index` (x + 4 y + 16 z) of the brick may cover.
+    PixelRange cell(int index) const {
+      if (all_.perspective_) {
+        return all_.of(first_cell_ + glm::ivec3(index & 3, (index >> 2) & 3, index >> 4), 1,
+                       frame_);
+      }
+      const auto i = static_cast<std::size_t>(index);
+      return around(x_ + all_.cell_x_[i], y_ - all_.cell_y_[i], all_.x_.half_cell,
+                    all_.y_.half_cell, frame_);
     }
-    const double x =
-        center_px_.x + x_(glm::dvec3(first_cell)) + cell_x_[static_cast<std::size_t>(index)];
-    const double y =
-        center_px_.y - y_(glm::dvec3(first_cell)) - cell_y_[static_cast<std::size_t>(index)];
-    return around(x, y, x_.half_cell, y_.half_cell, frame);
-  }
+
+   private:
+    const CellRectangles& all_;
+    glm::ivec3 first_cell_;
+    PixelRange frame_;
+    double x_;
+    double y_;
+  };
 
  private:
   struct Affine {

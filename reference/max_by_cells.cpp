@@ -92,6 +92,15 @@ EmissionBound bound_of(const EmissionMap& map) {
   return {at_0 + kSafely * (1.0 + std::abs(at_0)), slope};
 }
 
+/// The map, if it is one piece that a kernel can take.
+OnePiece one_piece(const EmissionMap& map) {
+  const EmissionKnot& first = map.knots().front();
+  const EmissionKnot& last = map.knots().back();
+  const double width = last.value - first.value;
+  return {first.value,    last.value,    width,
+          first.emission, last.emission, map.knots().size() == 2 && std::isfinite(width)};
+}
+
 /// Cued: emission times cue.
 class CuedMaximum {
  public:
@@ -99,7 +108,8 @@ class CuedMaximum {
       : scene_(scene),
         cue_(cue),
         cell_cue_(*scene.field, cue),
-        bound_(bound_of(scene.field->emission_of_field)) {}
+        bound_(bound_of(scene.field->emission_of_field)),
+        one_piece_(one_piece(scene.field->emission_of_field)) {}
 
   static constexpr bool kOrdered = false;
 
@@ -123,7 +133,9 @@ class CuedMaximum {
     return least_field_above(scene_.field->emission_of_field, floor / beta_of_brick_);
   }
   double upper_of_cell(double greatest) const {
-    return scene_.field->emission_of_field(greatest) * beta_of_brick_;
+    const double on_line = bound_.at_0 + bound_.slope * greatest;
+    const double top = one_piece_.top;
+    return (on_line < top ? on_line : top) * beta_of_brick_;
   }
 
   void raise(TileRays& rays, const LaneRays& lanes, const BrickSamples& samples,
@@ -139,7 +151,8 @@ class CuedMaximum {
       best[ray] = emission.maximum_above(best[ray], {{part.b[0], part.b[1], part.b[2], part.b[3]}},
                                          {beta(part.t_enter), beta(part.t_exit)});
     };
-    scene_.kernel.visit_parts(lanes, samples, cell, rectangle, bound_, {visit, &context});
+    scene_.kernel.visit_parts(lanes, samples, cell, rectangle, bound_, one_piece_,
+                              {visit, &context});
   }
 
  private:
@@ -147,6 +160,7 @@ class CuedMaximum {
   CueField cue_;
   CellCue cell_cue_;
   EmissionBound bound_;
+  OnePiece one_piece_;
   double beta_of_brick_ = 0.0;
 };
 
@@ -184,6 +198,10 @@ PixelRange tile_rectangle(const TileLists& lists, std::size_t tile, const glm::i
   const int y = static_cast<int>(tile / across) * TileRays::kSide;
   const glm::ivec2 first(x, y);
   return {first, glm::min(first + TileRays::kSide, size) - 1};
+}
+
+LaneRectangle lanes_of(const PixelRange& pixels) {
+  return {pixels.first.x, pixels.first.y, pixels.last.x + 1, pixels.last.y + 1};
 }
 
 PixelRange within(const PixelRange& tile, const PixelRange& r) {
@@ -238,15 +256,15 @@ void draw_brick(const Frame& frame, const BrightBrick& brick, const PixelRange& 
   unsigned long long cells = frame.scene.kernel.greatest_corners(
       work.samples, work.maximum.begin_brick(brick, floor), greatest.data());
   cells &= cells_within(glm::ivec3(frame.scene.field->cells) - brick.first_cell);
+  const CellRectangles::OfBrick rectangles(frame.rectangles, brick.first_cell, rectangle);
   for (; cells != 0; cells &= cells - 1) {
     const int cell = std::countr_zero(cells);
-    const PixelRange pixels =
-        within(tile, frame.rectangles.of_cell(brick.first_cell, cell, rectangle));
+    const PixelRange pixels = within(tile, rectangles.cell(cell));
     if (pixels.empty()) continue;
     const double upper = work.maximum.upper_of_cell(greatest[static_cast<std::size_t>(cell)]);
     work.maximum.raise(work.rays, lanes, work.samples,
                        {cell % kBrick, cell / kBrick % kBrick, cell / kBrick / kBrick, upper},
-                       {pixels.first.x, pixels.first.y, pixels.last.x + 1, pixels.last.y + 1});
+                       lanes_of(pixels));
   }
 }
 
@@ -257,13 +275,16 @@ void draw_tile(const Frame& frame, std::size_t tile, Workplace<Maximum>& work, P
   if (work.items.empty() && !frame.lines.shows_always() && !picture.tools) return;
   start_rays(frame, pixels, work, picture);
   const LaneRays lanes = work.rays.lanes();
+  const auto least_best = [&](const PixelRange& where) {
+    return frame.scene.kernel.least_best(lanes, lanes_of(within(pixels, where)));
+  };
   constexpr std::size_t kBetweenLooks = 16;
   for (std::size_t i = 0; i < work.items.size(); ++i) {
     const double upper = work.items[i].upper;
-    if (i % kBetweenLooks == 0 && !(upper > work.rays.least_best(within(pixels, pixels)))) break;
+    if (i % kBetweenLooks == 0 && !(upper > least_best(pixels))) break;
     const BrightBrick& bright = frame.scene.bright->bricks[work.items[i].brick];
     const PixelRange rectangle = intersection(frame.of_brick[work.items[i].brick], pixels);
-    const double floor = work.rays.least_best(within(pixels, rectangle));
+    const double floor = least_best(rectangle);
     if (!(upper > floor)) continue;
     draw_brick(frame, bright, pixels, rectangle, floor, lanes, work);
   }

@@ -22,6 +22,10 @@ PixelLines::PixelLines(const WalkField& field, const Camera& camera, const Slab&
   visible_ = {visible.t_begin_mm, visible.t_end_mm};
   right_ = field.frame.cell_from_world * (pixel_mm * camera.right);
   down_ = field.frame.cell_from_world * (-pixel_mm * camera.up);
+  direction_mm_ = camera.forward;
+  const glm::dvec3 steepness = glm::abs(first_.direction);
+  is_plain_ = !shows_always_ &&
+              std::min({steepness.x, steepness.y, steepness.z}) > slope_along_planes(steepness);
 }
 
 std::optional<PixelLine> PixelLines::entered(int x, int y) const {
@@ -31,9 +35,9 @@ std::optional<PixelLine> PixelLines::entered(int x, int y) const {
   return PixelLine{line->line, line->interval, line->t_begin_mm, ray.direction};
 }
 
-std::optional<PixelLine> PixelLines::at(int x, int y) const {
+std::optional<PixelLine> PixelLines::any(int x, int y) const {
   if (shows_always_) return entered(x, y);
-  PixelLine ray{first_, visible_, 0.0, camera_.forward};
+  PixelLine ray{first_, visible_, 0.0, direction_mm_};
   if (camera_.perspective) {
     // From the point beside the volume's centre, so that a far eye costs no digits.
     Ray seen = picture_ray(camera_, x + 0.5, y + 0.5);
@@ -44,7 +48,7 @@ std::optional<PixelLine> PixelLines::at(int x, int y) const {
     ray.direction_mm = seen.direction;
     ray.visible = {visible.t_begin_mm - ray.t_shift_mm, visible.t_end_mm - ray.t_shift_mm};
   } else {
-    ray.line.origin += (x + 0.5) * right_ + (y + 0.5) * down_;
+    ray.line = line(x, y);
   }
   const glm::dvec3 steepness = glm::abs(ray.line.direction);
   const double along = slope_along_planes(steepness);
@@ -93,16 +97,6 @@ LaneRays TileRays::lanes() {
       any_slack_ ? three(kSlack) : std::array<double*, 3>{nullptr, nullptr, nullptr};
   return {{ox, oy, oz}, {dx, dy, dz},  {ix, iy, iz},    {sx, sy, sz},      column(kBegin),
           column(kEnd), column(kBest), column(kBetaAt), column(kBetaRise), kStride};
-}
-
-double TileRays::least_best(const PixelRange& rectangle) const {
-  double least = std::numeric_limits<double>::infinity();
-  for (int y = rectangle.first.y; y <= rectangle.last.y; ++y) {
-    const double* row = column(kBest) + index(0, y);
-    for (int x = rectangle.first.x; x <= rectangle.last.x; ++x)
-      least = row[x] < least ? row[x] : least;
-  }
-  return least;
 }
 
 }  // namespace nacre

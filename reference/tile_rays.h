@@ -29,19 +29,29 @@ class PixelLines {
 
   /// The ray through a pixel's centre; nothing where it misses the volume's box for certain (others
   /// may miss it too). Rays in or along a border plane are treated as `clip_to_grid` does.
-  std::optional<PixelLine> at(int x, int y) const;
+  std::optional<PixelLine> at(int x, int y) const {
+    return is_plain_ ? PixelLine{line(x, y), visible_, 0.0, direction_mm_} : any(x, y);
+  }
 
   /// Whether the volume's darkest is not 0, so that each ray through its box shows something; then
   /// `at` gives the part inside the box.
   bool shows_always() const { return shows_always_; }
 
  private:
+  std::optional<PixelLine> any(int x, int y) const;
   std::optional<PixelLine> entered(int x, int y) const;
+
+  /// Orthographic.
+  CellLine line(int x, int y) const {
+    return {first_.origin + (x + 0.5) * right_ + (y + 0.5) * down_, first_.direction};
+  }
 
   const WalkField& field_;
   const Camera& camera_;
   Slab slab_;
   bool shows_always_;
+  bool is_plain_ = false;  ///< orthographic, along no plane, and nothing shows always
+  glm::dvec3 direction_mm_{0.0};
   /// Orthographic: of the picture's upper left corner, and to the next pixel.
   CellLine first_;
   LineInterval visible_{0.0, 0.0};
@@ -77,9 +87,6 @@ class TileRays {
   }
 
   double best(int x, int y) const { return column(kBest)[index(x, y)]; }
-
-  /// The least `best` within a rectangle of the tile.
-  double least_best(const PixelRange& rectangle) const;
 
  private:
   enum Column {

@@ -281,9 +281,9 @@ TEST(CellRectangles, HoldThePictureOfEachPointOfTheCell) {
       // The pixel whose centre is nearest is covered where the point lies on the centre itself.
       const double x = 0.5 * camera.size.x + scale * glm::dot(from, camera.right);
       const double y = 0.5 * camera.size.y - scale * glm::dot(from, camera.up);
-      for (const PixelRange& r :
-           {rectangles.of(cell, 1, frame), rectangles.of_cell(brick, index, frame),
-            rectangles.of(brick, 4, frame)}) {
+      for (const PixelRange& r : {rectangles.of(cell, 1, frame),
+                                  CellRectangles::OfBrick(rectangles, brick, frame).cell(index),
+                                  rectangles.of(brick, 4, frame)}) {
         // Centres less than the point's place from the edge are in: the edge is beyond the point.
         if (x > 0.5 && x < camera.size.x - 0.5) {
           EXPECT_LE(r.first.x - 0.5, x);
