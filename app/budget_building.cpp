@@ -97,7 +97,7 @@ class Trials {
         build_options(flags, input_.volume.world_from_voxel, placer_.place(flags, silent_, unsaid),
                       reporter_.progress());
     options.scratch_folder = scratch_folder_;
-    at_hand_ = build_and_compress(input_.volume, input_.emission, options);
+    at_hand_ = build_and_compress(input_.volume, input_.emission, options, compression_of(flags));
     return {assemble_shell_set(at_hand_.compressed.set, at_hand_.compressed.shells,
                                {.certificate_json = certificate_})
                 .size(),

@@ -27,29 +27,29 @@ constexpr double kMostOfBytes = 0.3;
 
 /// The copies that a build left, compressed side by side.
 std::optional<CoarseShells> compress_copies(std::vector<TriangleMesh>&& copies, const ShellSet& set,
-                                            double tolerance) {
+                                            double tolerance, int compression) {
   if (copies.empty()) return std::nullopt;
   CoarseShells coarse{.tolerance = tolerance};
   coarse.shells.resize(copies.size());
   tbb::parallel_for(std::size_t{0}, copies.size(), [&](std::size_t k) {
-    coarse.shells[k] = compress_shell(std::move(copies[k]), *set.grid);
+    coarse.shells[k] = compress_shell(std::move(copies[k]), *set.grid, compression);
   });
   return coarse;
 }
 
 /// @param build  builds into the sink that it is given
 template <class Build>
-BuiltSet compress(const BuildOptions& options, Build&& build) {
+BuiltSet compress(const BuildOptions& options, int compression, Build&& build) {
   release_free_memory();
   BuiltSet result;
   result.compressed.shells.resize(options.levels.size());
   BuiltShells built = build([&](const ShellSet& set, std::size_t k, TriangleMesh&& surface) {
-    result.compressed.shells[k] = compress_shell(std::move(surface), *set.grid);
+    result.compressed.shells[k] = compress_shell(std::move(surface), *set.grid, compression);
     release_free_memory();
   });
   result.compressed.set = std::move(built.set);
-  result.compressed.coarse =
-      compress_copies(std::move(built.copies), result.compressed.set, options.coarse_tolerance);
+  result.compressed.coarse = compress_copies(std::move(built.copies), result.compressed.set,
+                                             options.coarse_tolerance, compression);
   result.report = built.report;
   return result;
 }
@@ -96,16 +96,20 @@ BuildOptions build_options(const ShellFlags& flags, const glm::dmat4& world_from
   return options;
 }
 
+int compression_of(const ShellFlags& flags) {
+  return flags.compression.value_or(effort_for(is_simplifying(flags)));
+}
+
 BuiltSet build_and_compress(Volume&& volume, const EmissionMap& emission,
-                            const BuildOptions& options) {
-  return compress(options, [&](const SurfaceSink& sink) {
+                            const BuildOptions& options, int compression) {
+  return compress(options, compression, [&](const SurfaceSink& sink) {
     return build_shells(std::move(volume), emission, options, sink);
   });
 }
 
 BuiltSet build_and_compress(const Volume& volume, const EmissionMap& emission,
-                            const BuildOptions& options) {
-  return compress(options, [&](const SurfaceSink& sink) {
+                            const BuildOptions& options, int compression) {
+  return compress(options, compression, [&](const SurfaceSink& sink) {
     return build_shells(volume, emission, options, sink);
   });
 }

@@ -13,6 +13,9 @@ namespace nacre {
 BuildOptions build_options(const ShellFlags& flags, const glm::dmat4& world_from_voxel,
                            PlacedLevels levels, ProgressCallback progress);
 
+/// Draco's effort, named or chosen.
+int compression_of(const ShellFlags& flags);
+
 /// A compressed set, and what building it took.
 struct BuiltSet {
   CompressedSet compressed;
@@ -21,10 +24,12 @@ struct BuiltSet {
 
 /// Builds, compressing each shell when it is finished. A volume that is moved here is gone as soon
 /// as no later step looks at it.
+///
+/// @param compression  see `ShellWriteOptions`
 BuiltSet build_and_compress(Volume&& volume, const EmissionMap& emission,
-                            const BuildOptions& options);
+                            const BuildOptions& options, int compression);
 BuiltSet build_and_compress(const Volume& volume, const EmissionMap& emission,
-                            const BuildOptions& options);
+                            const BuildOptions& options, int compression);
 
 /// Leaves out copies that would make the file too much larger for what was not asked for, and says
 /// so.

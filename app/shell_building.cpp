@@ -33,7 +33,8 @@ CompressedSet build_compressed_set(const ShellFlags& flags, EmissionVolume input
                                    BuildFigures& figures) {
   BuildOptions options = options_of(flags, input, reporter, figures);
   options.scratch_folder = scratch_folder;
-  BuiltSet built = build_and_compress(std::move(input.volume), input.emission, options);
+  BuiltSet built =
+      build_and_compress(std::move(input.volume), input.emission, options, compression_of(flags));
   if (flags.coarse == kAutoCopies) drop_large_copies(built.compressed, reporter);
   tell_build(built.compressed.set, built.report, reporter, figures);
   count_crossings_of(built.compressed, reporter, figures);

@@ -27,6 +27,7 @@ struct ShellFlags : LevelFlags {
   std::string tolerance_weight;         ///< field or picture; empty: chosen
   double tolerance_mm = 0.0;            ///< mm; 0: none
   int quantization = 0;                 ///< bits; 0: chosen
+  std::optional<int> compression;       ///< Draco's effort; none: chosen
   std::optional<double> min_component;  ///< mm^3; none: chosen
   bool keep_specks = false;
   std::string purpose = "all";     ///< all or max: which pictures the set must serve
@@ -34,7 +35,7 @@ struct ShellFlags : LevelFlags {
 };
 
 /// Adds the flags of levels, --tolerance, --tolerance-weight, --tolerance-mm, --quantization,
-/// --min-component, --keep-specks and --purpose.
+/// --compression, --min-component, --keep-specks and --purpose.
 void add_shell_flags(CLI::App& verb, ShellFlags& flags);
 
 /// @throws Error  BadArgument for a --tolerance-weight of no tolerance

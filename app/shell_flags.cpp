@@ -72,6 +72,12 @@ void add_shell_flags(CLI::App& verb, ShellFlags& flags) {
                   "smallest spacing)")
       ->check(CLI::Range(1, 30))
       ->group(group);
+  verb.add_option(
+          "--compression", flags.compression,
+          "Draco's effort, from 0 (soonest written and read) to 10 (smallest); default: 10, "
+          "8 for surfaces that are not simplified")
+      ->check(CLI::Range(0, kMostEffort))
+      ->group(group);
   auto* least = verb.add_option("--min-component", flags.min_component,
                                 "MM3: closed components of less volume are left out (default: "
                                 "1/64 of a voxel)")

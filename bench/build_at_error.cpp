@@ -103,11 +103,12 @@ class Comparison {
     options.quantization_bits = bits;
     options.min_component_mm3 = default_speck_mm3(volume_.world_from_voxel);
     Made made{build_shells(volume_, emission_, options).set};
+    const int effort = effort_for(tolerance > 0.0);  // as `build`
     std::vector<std::size_t> bytes(made.set.shells.size(), 0);
     tbb::parallel_for(std::size_t{0}, bytes.size(), [&](std::size_t k) {
       if (made.set.shells[k].surface.triangles.empty()) return;
-      bytes[k] =
-          compress_shell(TriangleMesh(made.set.shells[k].surface), *made.set.grid).bytes.size();
+      bytes[k] = compress_shell(TriangleMesh(made.set.shells[k].surface), *made.set.grid, effort)
+                     .bytes.size();
     });
     made.bytes = std::reduce(bytes.begin(), bytes.end());
     return made;

@@ -82,10 +82,11 @@ EncodedShells encode_shells(const Volume& volume, const EmissionMap& emission,
   Volume copy = copy_of(volume);  // a build frees it when it has seen enough of it
   const auto start = Clock::now();
   std::vector<CompressedShell> shells(build.levels.size());
+  const int effort = effort_for(recipe.tolerance > 0.0);  // as `nacre build`
   const BuiltShells built =
       build_shells(std::move(copy), emission, build,
                    [&](const ShellSet& set, std::size_t k, TriangleMesh&& surface) {
-                     shells[k] = compress_shell(std::move(surface), *set.grid);
+                     shells[k] = compress_shell(std::move(surface), *set.grid, effort);
                    });
   encoded.bytes = assemble_shell_set(built.set, shells);
   encoded.seconds = seconds_since(start);

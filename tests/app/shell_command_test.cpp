@@ -74,6 +74,22 @@ TEST_F(ShellCommand, BuildGivesTheSameBytesForAnyNumberOfThreads) {
   }
 }
 
+TEST_F(ShellCommand, SetsAreMadeSmallWhereTheyAreSimplifiedUnlessAsked) {
+  const auto bytes = [&](const std::string& extra) {
+    const std::string build =
+        "build ball.nii --window 0,28 --levels 7 --certificate none -o c.glb ";
+    EXPECT_EQ(nacre(build + extra).status, 0) << extra;
+    return testing::read_bytes(folder_.path() / "c.glb");
+  };
+  EXPECT_EQ(bytes(""), bytes("--compression 8"));
+  EXPECT_EQ(bytes("--tolerance 0.02"), bytes("--tolerance 0.02 --compression 10"));
+  EXPECT_EQ(bytes("--tolerance-mm 0.1"), bytes("--tolerance-mm 0.1 --compression 10"));
+  EXPECT_LT(bytes("--compression 10").size(), bytes("--compression 8").size());
+  // The surfaces are the same.
+  EXPECT_EQ(nacre("verify c.glb --volume ball.nii").status, 0);
+  expect_refusal("build ball.nii -o c.glb --compression 11", 2, "--compression");
+}
+
 TEST_F(ShellCommand, InfoListsTheShells) {
   const CommandResult result = nacre("info ball.glb --json -");
   ASSERT_EQ(result.status, 0) << result.errors;
