@@ -76,6 +76,16 @@ void set_copies(BuildOptions& options, const ShellFlags& flags) {
   options.coarse_above_triangles = kManyTriangles;
 }
 
+/// So many shells may be in memory while neighbours are counted, beside the one counted last: what
+/// compressing them may take (docs/decisions/006-memory-of-a-build.md), and few in any case.
+std::size_t decoded_at_once(std::size_t largest_triangles) {
+  constexpr std::size_t kBytesOfTriangle = 120;
+  constexpr std::size_t kMostBytes = 128'000'000;
+  constexpr std::size_t kMostDecoded = 4;
+  const std::size_t fit = kMostBytes / (kBytesOfTriangle * largest_triangles);
+  return std::clamp<std::size_t>(fit, 1, kMostDecoded);
+}
+
 }  // namespace
 
 BuildOptions build_options(const ShellFlags& flags, const glm::dmat4& world_from_voxel,
@@ -142,17 +152,21 @@ void tell_build(const ShellSet& set, const BuildReport& report, Reporter& report
 
 void count_crossings_of(const CompressedSet& built, Reporter& reporter, BuildFigures& figures) {
   Stopwatch counting;
-  CrossingCounter counter(built.set);
-  ProgressMeter progress(reporter.progress(), "nesting", built.shells.size());
+  std::vector<std::size_t> shells;
+  std::size_t largest = 1;
   for (std::size_t k = 0; k < built.shells.size(); ++k) {
-    const CompressedShell& shell = built.shells[k];
-    if (!shell.bytes.empty()) {
-      counter.add(k, decode_draco(shell.bytes, {shell.triangles, shell.vertices}));
-    }
-    progress.advance();
+    if (built.shells[k].bytes.empty()) continue;
+    shells.push_back(k);
+    largest = std::max(largest, built.shells[k].triangles);
   }
+  const auto decode = [&](std::size_t k) {
+    const CompressedShell& shell = built.shells[k];
+    return decode_draco(shell.bytes, {shell.triangles, shell.vertices});
+  };
+  const auto crossings = count_neighbour_crossings(built.set, shells, decode,
+                                                   decoded_at_once(largest), reporter.progress());
   figures.crossings = counting.lap();
-  figures.nesting = tell_nesting(counter.result(), reporter);
+  figures.nesting = tell_nesting(crossings, reporter);
 }
 
 }  // namespace nacre

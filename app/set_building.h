@@ -39,7 +39,7 @@ void drop_large_copies(CompressedSet& built, Reporter& reporter);
 void tell_build(const ShellSet& set, const BuildReport& report, Reporter& reporter,
                 BuildFigures& figures);
 
-/// Counts where neighbours cross as they will decode: two at a time are in memory.
+/// Counts where neighbours cross as they will decode: a few at a time are in memory.
 void count_crossings_of(const CompressedSet& built, Reporter& reporter, BuildFigures& figures);
 
 }  // namespace nacre

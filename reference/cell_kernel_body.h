@@ -42,6 +42,8 @@ inline Doubles mix(const A& a, const B& b, const Doubles& s) {
   return a + (b - a) * s;
 }
 
+constexpr long sample_at(long x, long y, long z) { return x + kSamples * (y + kSamples * z); }
+
 /// A cell's corners, x + 2 y + 4 z, and the differences along x.
 struct Corners {
   double at[8];
@@ -49,7 +51,7 @@ struct Corners {
 };
 
 inline Corners corners_of(const BrickSamples& brick, const BrickCell& cell) {
-  const double* base = brick.sample + cell.x + kSamples * (cell.y + kSamples * cell.z);
+  const double* base = brick.sample + sample_at(cell.x, cell.y, cell.z);
   constexpr int kY = kSamples;
   constexpr int kZ = kSamples * kSamples;
   return {
@@ -108,7 +110,7 @@ inline Cubics cubics(const LaneRays& rays, std::size_t i, const Passage& passage
   const Doubles qx = point(rays, i, 0, passage.t_exit, cell);
   Doubles at_px[4];
   Doubles at_qx[4];
-  for (int yz = 0; yz < 4; ++yz) {
+  for (std::size_t yz = 0; yz < 4; ++yz) {
     at_px[yz] = mix(c[2 * yz], c[2 * yz + 1], px);
     at_qx[yz] = mix(c[2 * yz], c[2 * yz + 1], qx);
   }
@@ -292,7 +294,7 @@ unsigned long long greatest_corners(const BrickSamples& brick, double floor,
   for (int z = 0; z < kSide; ++z) {
     for (int y = 0; y < kSide; ++y) {
       for (int x = 0; x < kSide; x += kLanes) {
-        const double* base = brick.sample + x + kSamples * y + kPlane * z;
+        const double* base = brick.sample + sample_at(x, y, z);
         const auto pair = [&](int offset) {
           return greatest(load(base + offset), load(base + offset + 1));
         };

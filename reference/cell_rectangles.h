@@ -93,8 +93,9 @@ class CellRectangles {
   Affine w_;
   bool perspective_;
   static constexpr int kBrick = BrightBricks::kSide;
-  std::array<double, kBrick * kBrick * kBrick> cell_x_{};  ///< of a cell's centre, from the brick
-  std::array<double, kBrick * kBrick * kBrick> cell_y_{};
+  static constexpr std::size_t kBrickCells = std::size_t{kBrick} * kBrick * kBrick;
+  std::array<double, kBrickCells> cell_x_{};  ///< of a cell's centre, from the brick
+  std::array<double, kBrickCells> cell_y_{};
 };
 
 }  // namespace nacre

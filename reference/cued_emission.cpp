@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "reference/knot_splits.h"
 #include "reference/quartic.h"
@@ -47,7 +48,7 @@ LinearPiece::LinearPiece(const EmissionKnot& a, const EmissionKnot& b) noexcept
       width_(b.value * scale_ - start_),
       end_(b.value) {}
 
-CuedEmission::CuedEmission(const EmissionMap& map) : map_(map) {
+CuedEmission::CuedEmission(EmissionMap map) : map_(std::move(map)) {
   const auto knots = map_.knots();
   for (std::size_t i = 1; i < knots.size(); ++i) pieces_.emplace_back(knots[i - 1], knots[i]);
 }

@@ -48,7 +48,7 @@ class LinearPiece {
 class CuedEmission {
  public:
   /// @param map  knots in the unit of f
-  explicit CuedEmission(const EmissionMap& map);
+  explicit CuedEmission(EmissionMap map);
 
   /// max { floor, beta(s) T(f(s)) }.
   double maximum_above(double floor, const BernsteinCubic& f, const UnitCue& beta) const;

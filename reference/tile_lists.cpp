@@ -13,10 +13,10 @@ constexpr std::size_t kLeastChunk = 1024;
 
 /// Things are counted a chunk at a time.
 struct Chunks {
-  explicit Chunks(std::size_t things_)
-      : things(things_),
-        size(std::max(kLeastChunk, (things_ + kMostChunks - 1) / kMostChunks)),
-        count((things_ + size - 1) / size) {}
+  explicit Chunks(std::size_t all)
+      : things(all),
+        size(std::max(kLeastChunk, (all + kMostChunks - 1) / kMostChunks)),
+        count((all + size - 1) / size) {}
 
   std::size_t things;
   std::size_t size;

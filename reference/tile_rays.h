@@ -89,18 +89,17 @@ class TileRays {
   double best(int x, int y) const { return column(kBest)[index(x, y)]; }
 
  private:
-  enum Column {
-    kOrigin,
-    kDirection = 3,
-    kInverse = 6,
-    kSlack = 9,
-    kBegin = 12,
-    kEnd,
-    kBest,
-    kBetaAt,
-    kBetaRise,
-    kColumns
-  };
+  // Columns; those of points and directions have three.
+  static constexpr int kOrigin = 0;
+  static constexpr int kDirection = 3;
+  static constexpr int kInverse = 6;
+  static constexpr int kSlack = 9;
+  static constexpr int kBegin = 12;
+  static constexpr int kEnd = 13;
+  static constexpr int kBest = 14;
+  static constexpr int kBetaAt = 15;
+  static constexpr int kBetaRise = 16;
+  static constexpr std::size_t kColumns = 17;
   static constexpr std::size_t kPadding = 4;  ///< a vector
   static constexpr std::size_t kStride = kSide + kPadding;
   static constexpr std::size_t kRays = kSide * kStride;

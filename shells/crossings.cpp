@@ -3,6 +3,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_invoke.h>
+#include <tbb/parallel_pipeline.h>
 #include <tbb/parallel_reduce.h>
 
 #include <algorithm>
@@ -10,11 +11,14 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "core/quantization_grid.h"
 #include "shells/border_planes.h"
+#include "shells/crossing_candidates.h"
 #include "shells/triangle_crossing.h"
 
 namespace nacre {
@@ -48,8 +52,16 @@ class Bricks {
     return counts.x * counts.y * counts.z;
   }
 
-  /// The number of the brick of a point in the box.
-  std::uint32_t at(const glm::ivec3& point) const { return number(brick_of(point)); }
+  /// Of a brick's sides.
+  const glm::ivec3& bits() const { return bits_; }
+
+  /// The lowest point of a brick.
+  glm::ivec3 lowest(std::size_t number) const {
+    const auto at = static_cast<int>(number);
+    const int row = at / counts_.x;
+    const glm::ivec3 brick = first_ + glm::ivec3(at % counts_.x, row % counts_.y, row / counts_.y);
+    return {brick.x << bits_.x, brick.y << bits_.y, brick.z << bits_.z};
+  }
 
   /// Calls `visit(number)` with every brick that a box reaches.
   template <class Visit>
@@ -77,14 +89,6 @@ class Bricks {
   glm::ivec3 first_{0};
   glm::ivec3 counts_{1};
 };
-
-/// A triangle of a brick.
-struct Item {
-  Box box;
-  std::uint32_t triangle;
-};
-
-}  // namespace
 
 /// A surface in grid coordinates, without its caps.
 class GridSurface {
@@ -130,8 +134,6 @@ class GridSurface {
   Box box_;
 };
 
-namespace {
-
 /// The triangles of a surface by the bricks they reach.
 class BrickLists {
  public:
@@ -153,14 +155,12 @@ class BrickLists {
 
   bool is_empty(std::size_t brick) const { return begin_[brick] == begin_[brick + 1]; }
 
-  /// Those of a brick, by the lower x of their boxes.
-  void items(std::size_t brick, std::vector<Item>& items) const {
-    items.clear();
+  /// Those of a brick.
+  void triangles(std::size_t brick, std::vector<GridTriangle>& triangles) const {
+    triangles.clear();
     for (std::uint32_t i = begin_[brick]; i < begin_[brick + 1]; ++i) {
-      items.push_back({surface_.box_of(triangles_[i]), triangles_[i]});
+      triangles.push_back(surface_.triangle(triangles_[i]));
     }
-    std::sort(items.begin(), items.end(),
-              [](const Item& a, const Item& b) { return a.box.lo.x < b.box.lo.x; });
   }
 
  private:
@@ -169,29 +169,12 @@ class BrickLists {
   std::vector<std::uint32_t> triangles_;
 };
 
-/// Calls `visit(a, b)` with every two whose boxes overlap along x, in two ascending lists.
-template <class Visit>
-void for_each_pair_along_x(std::span<const Item> a, std::span<const Item> b, Visit&& visit) {
-  while (!a.empty() && !b.empty()) {
-    if (a.front().box.lo.x <= b.front().box.lo.x) {
-      for (const Item& other : b) {
-        if (other.box.lo.x > a.front().box.hi.x) break;
-        visit(a.front(), other);
-      }
-      a = a.subspan(1);
-    } else {
-      for (const Item& other : a) {
-        if (other.box.lo.x > b.front().box.hi.x) break;
-        visit(other, b.front());
-      }
-      b = b.subspan(1);
-    }
-  }
-}
-
-struct Lists {
-  std::vector<Item> outer;
-  std::vector<Item> inner;
+/// What counting in a brick needs.
+struct Scratch {
+  std::vector<GridTriangle> outer;
+  std::vector<GridTriangle> inner;
+  CrossingCandidates candidates;
+  std::vector<std::uint32_t> found;
 };
 
 std::size_t count_crossings(const GridSurface& outer, const GridSurface& inner) {
@@ -205,18 +188,21 @@ std::size_t count_crossings(const GridSurface& outer, const GridSurface& inner) 
   std::optional<BrickLists> of_inner;
   tbb::parallel_invoke([&] { of_outer.emplace(outer, bricks); },
                        [&] { of_inner.emplace(inner, bricks); });
-  tbb::enumerable_thread_specific<Lists> scratch;
+  tbb::enumerable_thread_specific<Scratch> scratch;
   const auto in_brick = [&](std::size_t brick) {
     if (of_outer->is_empty(brick) || of_inner->is_empty(brick)) return std::size_t{0};
-    Lists& lists = scratch.local();
-    of_outer->items(brick, lists.outer);
-    of_inner->items(brick, lists.inner);
+    Scratch& in = scratch.local();
+    of_outer->triangles(brick, in.outer);
+    of_inner->triangles(brick, in.inner);
+    in.candidates.assign(in.inner, bricks.lowest(brick), bricks.bits());
     std::size_t count = 0;
-    for_each_pair_along_x(lists.outer, lists.inner, [&](const Item& a, const Item& b) {
+    for (const GridTriangle& triangle : in.outer) {
       // Pairs meet in every brick that their boxes share: in the lowest only they count.
-      if (!overlap(a.box, b.box) || bricks.at(glm::max(a.box.lo, b.box.lo)) != brick) return;
-      if (cross(outer.triangle(a.triangle), inner.triangle(b.triangle))) ++count;
-    });
+      in.candidates.find(triangle, in.found);
+      for (const std::uint32_t other : in.found) {
+        if (cross(triangle, in.inner[other])) ++count;
+      }
+    }
     return count;
   };
   return tbb::parallel_reduce(
@@ -232,14 +218,36 @@ std::size_t count_crossings(const GridSurface& outer, const GridSurface& inner) 
 
 }  // namespace
 
-CrossingCounter::CrossingCounter(const ShellSet& set) : set_(set) {}
-CrossingCounter::~CrossingCounter() = default;
-
-void CrossingCounter::add(std::size_t shell, const TriangleMesh& surface) {
-  auto inner = std::make_unique<const GridSurface>(surface, set_);
-  if (outer_) result_.push_back({outer_shell_, shell, count_crossings(*outer_, *inner)});
-  outer_ = std::move(inner);
-  outer_shell_ = shell;
+std::vector<NeighbourCrossings> count_neighbour_crossings(const ShellSet& set,
+                                                          std::span<const std::size_t> shells,
+                                                          const SurfaceOfShell& surface_of,
+                                                          std::size_t at_once,
+                                                          const ProgressCallback& progress) {
+  using Surface = std::shared_ptr<const GridSurface>;
+  ProgressMeter meter(progress, "nesting", shells.size());
+  std::vector<NeighbourCrossings> result;
+  std::size_t next = 0;
+  const auto number = [&](tbb::flow_control& control) {
+    if (next == shells.size()) control.stop();
+    return next == shells.size() ? next : next++;
+  };
+  const auto make = [&](std::size_t i) {
+    return std::make_shared<const GridSurface>(surface_of(shells[i]), set);
+  };
+  Surface outer;
+  std::size_t counted = 0;
+  const auto count = [&](Surface inner) {
+    const std::size_t i = counted++;
+    if (outer) result.push_back({shells[i - 1], shells[i], count_crossings(*outer, *inner)});
+    outer = std::move(inner);
+    meter.advance();
+  };
+  using tbb::filter_mode;
+  tbb::parallel_pipeline(std::max<std::size_t>(at_once, 1),
+                         tbb::make_filter<void, std::size_t>(filter_mode::serial_in_order, number) &
+                             tbb::make_filter<std::size_t, Surface>(filter_mode::parallel, make) &
+                             tbb::make_filter<Surface, void>(filter_mode::serial_in_order, count));
+  return result;
 }
 
 }  // namespace nacre

@@ -1,14 +1,14 @@
 #pragma once
 
 #include <cstddef>
-#include <memory>
+#include <functional>
+#include <span>
 #include <vector>
 
+#include "core/progress.h"
 #include "core/shell_set.h"
 
 namespace nacre {
-
-class GridSurface;
 
 /// How a shell and the next that is not empty meet.
 struct NeighbourCrossings {
@@ -17,30 +17,22 @@ struct NeighbourCrossings {
   std::size_t pairs = 0;  ///< of triangles that cross: each has corners on both sides of the other
 };
 
+/// Gives a shell's surface, on the set's grid. Called by several threads at a time.
+using SurfaceOfShell = std::function<TriangleMesh(std::size_t shell)>;
+
 /// Counts where neighbouring shells cross, exactly: positions are grid points, predicates integers.
 /// Caps in the volume's border planes are left out: they lie on each other.
 ///
 /// Plain code without CGAL, cheap enough for every build; `mutual_intersections` is its independent
-/// check. Holds two surfaces at a time, 18 bytes a triangle.
-class CrossingCounter {
- public:
-  /// @param set  its grid and its volume; its surfaces are not looked at
-  explicit CrossingCounter(const ShellSet& set);
-  ~CrossingCounter();
-  CrossingCounter(const CrossingCounter&) = delete;
-  CrossingCounter& operator=(const CrossingCounter&) = delete;
-
-  /// Takes the next shell that is not empty, from the outermost inwards.
-  /// @param surface  on the grid
-  void add(std::size_t shell, const TriangleMesh& surface);
-
-  const std::vector<NeighbourCrossings>& result() const noexcept { return result_; }
-
- private:
-  const ShellSet& set_;
-  std::unique_ptr<const GridSurface> outer_;
-  std::size_t outer_shell_ = 0;
-  std::vector<NeighbourCrossings> result_;
-};
+/// check. Of each surface in the making and of the one last counted it holds 18 bytes a triangle.
+///
+/// @param set  its grid and its volume; its surfaces are not looked at
+/// @param shells  those that are not empty, from the outermost inwards
+/// @param at_once  so many surfaces are in the making, waiting or being counted
+std::vector<NeighbourCrossings> count_neighbour_crossings(const ShellSet& set,
+                                                          std::span<const std::size_t> shells,
+                                                          const SurfaceOfShell& surface_of,
+                                                          std::size_t at_once,
+                                                          const ProgressCallback& progress = {});
 
 }  // namespace nacre

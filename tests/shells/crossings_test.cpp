@@ -18,11 +18,12 @@ using testing::make_set;
 using testing::random_volume;
 
 std::vector<NeighbourCrossings> crossings_of(const ShellSet& set) {
-  CrossingCounter counter(set);
+  std::vector<std::size_t> shells;
   for (std::size_t k = 0; k < set.shells.size(); ++k) {
-    if (!set.shells[k].surface.triangles.empty()) counter.add(k, set.shells[k].surface);
+    if (!set.shells[k].surface.triangles.empty()) shells.push_back(k);
   }
-  return counter.result();
+  return count_neighbour_crossings(
+      set, shells, [&](std::size_t k) { return set.shells[k].surface; }, 3);
 }
 
 ShellSet on_a_grid(std::vector<TriangleMesh> surfaces) {
