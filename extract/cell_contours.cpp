@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "extract/tube_band.h"
 
@@ -21,17 +22,21 @@ std::uint8_t byte(std::uint64_t word, std::size_t i) {
   return static_cast<std::uint8_t>(word >> (8 * i));
 }
 
-/// Bit i set where byte i is above k. Eight comparisons in one addition, wherever no byte differs
-/// from the lowest by more than 127: then no carry leaves a byte.
-unsigned mask_above(std::uint64_t classes, std::size_t lo, std::size_t hi, std::size_t k) {
-  if (hi - lo > 127) {
-    unsigned mask = 0;
-    for (std::size_t i = 0; i < 8; ++i) mask |= (byte(classes, i) > k ? 1u : 0u) << i;
-    return mask;
-  }
+/// Bit i set where byte i is above k: eight comparisons in one addition, where neither the bytes
+/// nor k differ from the lowest byte by more than 127. Then no carry leaves a byte.
+unsigned mask_above(std::uint64_t classes, std::size_t lo, std::size_t k) {
   const std::uint64_t from_lo = classes - lo * kEachByte;
   const std::uint64_t above = (from_lo + (127 - (k - lo)) * kEachByte) & kTopBits;
   return static_cast<unsigned>((above >> 7) * 0x0102040810204080 >> 56);
+}
+
+/// Bytes below k become k; above k + 127 they become that: the mask at k stays.
+std::uint64_t clamped_to(std::uint64_t classes, std::size_t k) {
+  std::uint64_t clamped = 0;
+  for (std::size_t i = 0; i < 8; ++i) {
+    clamped |= std::clamp<std::uint64_t>(byte(classes, i), k, k + 127) << (8 * i);
+  }
+  return clamped;
 }
 
 }  // namespace
@@ -73,38 +78,53 @@ void CellContours::add_row(const CellRow& row, SlabOutput& output) const {
 void CellContours::add_cell(const CellRow& row, std::size_t x, std::size_t lo, std::size_t hi,
                             SlabOutput& output) const {
   const std::uint64_t classes = row.corner_classes(x);
+  std::optional<CornerField> halves;
   for (std::size_t k = lo; k < hi; ++k) {
-    const unsigned mask = mask_above(classes, lo, hi, k);
+    const unsigned mask =
+        hi - lo <= 127 ? mask_above(classes, lo, k) : mask_above(clamped_to(classes, k), k, k);
     const SimpleCase& simple = topology_.simple(mask);
-    const Cell cell{row, x, k, mask};
     if (simple.triangle_count == SimpleCase::kNotSimple) {
-      add_ambiguous(cell, output);
+      if (!halves) halves = half_samples(row, x);
+      add_ambiguous({row, x, k, mask}, field(*halves, k), output);
       continue;
     }
     ChunkedStream<glm::uvec3>& triangles = output.levels[k].triangles;
-    glm::uvec3* room = triangles.room(simple.triangle_count, output.arena);
-    for (std::size_t t = 0; t < simple.triangle_count; ++t) {
-      room[t] = {cell.vertex(simple.edges[3 * t]), cell.vertex(simple.edges[3 * t + 1]),
-                 cell.vertex(simple.edges[3 * t + 2])};
-    }
+    const auto triangle = [&](std::size_t t) -> glm::uvec3 {
+      return {row.edge_vertex(simple.edges[3 * t], x, k),
+              row.edge_vertex(simple.edges[3 * t + 1], x, k),
+              row.edge_vertex(simple.edges[3 * t + 2], x, k)};
+    };
+    // Two at once, whether or not there are: which of the two would be a coin tossed.
+    glm::uvec3* room = triangles.room(output.arena);
+    room[0] = triangle(0);
+    room[1] = triangle(1);
+    for (std::size_t t = 2; t < simple.triangle_count; ++t) room[t] = triangle(t);
     triangles.commit(simple.triangle_count);
   }
 }
 
-CornerField CellContours::field(const Cell& cell) const {
-  const double level = 0.5 * crossings_[cell.k];
+/// Halves: the difference of two finite values may not be finite.
+CornerField CellContours::half_samples(const CellRow& row, std::size_t x) const {
+  CornerField halves{};
+  for (std::size_t i = 0; i < kCellCorners; ++i) {
+    halves[i] =
+        0.5 *
+        samples_[grid_.sample_index(x + (i & 1), row.y() + (i >> 1 & 1), row.z() + (i >> 2 & 1))];
+  }
+  return halves;
+}
+
+CornerField CellContours::field(const CornerField& halves, std::size_t k) const {
+  const double level = 0.5 * crossings_[k];
   CornerField field{};
   for (std::size_t i = 0; i < kCellCorners; ++i) {
-    const double sample = samples_[grid_.sample_index(cell.x + (i & 1), cell.row.y() + (i >> 1 & 1),
-                                                      cell.row.z() + (i >> 2 & 1))];
-    // Halves: the difference of two finite values may not be finite.
-    field[i] = descending_ ? level - 0.5 * sample : 0.5 * sample - level;
+    field[i] = descending_ ? level - halves[i] : halves[i] - level;
   }
   return field;
 }
 
-void CellContours::add_ambiguous(const Cell& cell, SlabOutput& output) const {
-  const CornerField values = field(cell);
+void CellContours::add_ambiguous(const Cell& cell, const CornerField& values,
+                                 SlabOutput& output) const {
   unsigned joined = 0;
   unsigned bit = 1;
   for (const std::uint8_t face : topology_.ambiguous_faces(cell.mask)) {
@@ -184,8 +204,13 @@ void CellContours::add_caps(const CellRow& row, SlabOutput& output) const {
   if (row.z() == 0) faces[face_count++] = 4;
   if (row.z() + 2 == nz) faces[face_count++] = 5;
   add_cap(row, 0, 0, output);
-  for (std::size_t x = 0; face_count > 0 && x + 1 < nx; ++x) {
-    for (std::size_t i = 0; i < face_count; ++i) add_cap(row, x, faces[i], output);
+  const std::size_t bricks = face_count > 0 ? brick_count(nx) : 0;
+  for (std::size_t b = 0; b < bricks; ++b) {
+    if (row.brick_range(b).hi == 0) continue;
+    const std::size_t end = std::min((b + 1) * kBrickCells, nx - 1);
+    for (std::size_t x = b * kBrickCells; x < end; ++x) {
+      for (std::size_t i = 0; i < face_count; ++i) add_cap(row, x, faces[i], output);
+    }
   }
   add_cap(row, nx - 2, 1, output);
 }
@@ -208,7 +233,7 @@ void CellContours::add_cap(const CellRow& row, std::size_t x, std::size_t face_i
       cell_mask |= inside << face.corners[i];
     }
     const bool joined = (face_mask == 5 || face_mask == 10) &&
-                        joined_in_face(field({row, x, k, cell_mask}), cell_mask, face);
+                        joined_in_face(field(half_samples(row, x), k), cell_mask, face);
     const CapCase& cap = cap_case(face_mask, joined);
     const auto vertex = [&](std::size_t i) {
       return i < 4 ? row.corner_vertex(face.corners[i], x, k)

@@ -35,14 +35,16 @@ class CellContours {
 
   void add_cell(const CellRow& row, std::size_t x, std::size_t lo, std::size_t hi,
                 SlabOutput& output) const;
-  void add_ambiguous(const Cell& cell, SlabOutput& output) const;
+  void add_ambiguous(const Cell& cell, const CornerField& values, SlabOutput& output) const;
   void add_disc(const Cell& cell, const CornerField& field, const CellLoop& loop,
                 SlabOutput& output) const;
   void add_tube(const Cell& cell, const CornerField& field, const CellCase& resolved,
                 const Tunnel& tunnel, SlabOutput& output) const;
   void add_cap(const CellRow& row, std::size_t x, std::size_t face, SlabOutput& output) const;
 
-  CornerField field(const Cell& cell) const;
+  CornerField half_samples(const CellRow& row, std::size_t x) const;
+  /// Positive inside level k; halved, too.
+  CornerField field(const CornerField& halves, std::size_t k) const;
   std::uint32_t add_inner_vertex(const Cell& cell, const glm::dvec3& p_cell,
                                  SlabOutput& output) const;
 

@@ -5,8 +5,8 @@
 namespace nacre {
 
 CellRow::CellRow(const SweepGrid& grid, std::size_t z, const LatticeSlice& lower,
-                 const LatticeSlice& upper, const LatticeGap& gap)
-    : nx_(grid.dims[0]), z_(z) {
+                 const LatticeSlice& upper, const LatticeGap& gap, const VertexIds& ids)
+    : nx_(grid.dims[0]), z_(z), ids_(ids.data()) {
   const std::array<const LatticeSlice*, 2> slices{&lower, &upper};
   for (std::size_t row = 0; row < 4; ++row) {
     classes_[row] = slices[row >> 1]->classes.data() + nx_ * (row & 1);
@@ -17,15 +17,15 @@ CellRow::CellRow(const SweepGrid& grid, std::size_t z, const LatticeSlice& lower
     const LatticeSlice& slice = *slices[corner >> 2];
     const std::size_t offset = (corner & 1) + nx_ * (corner >> 1 & 1);
     switch (edge / 4) {
-      case 0: edges_[edge] = {slice.x_edges.get() + offset, slice.ids.data()}; break;
-      case 1: edges_[edge] = {slice.y_edges.get() + offset, slice.ids.data()}; break;
-      default: edges_[edge] = {gap.z_edges.get() + offset, gap.ids.data()}; break;
+      case 0: edges_[edge] = slice.x_edges.get() + offset; break;
+      case 1: edges_[edge] = slice.y_edges.get() + offset; break;
+      default: edges_[edge] = gap.z_edges.get() + offset; break;
     }
   }
   for (std::size_t corner = 0; corner < kCellCorners; ++corner) {
     const LatticeSlice& slice = *slices[corner >> 2];
     const std::size_t offset = (corner & 1) + nx_ * (corner >> 1 & 1);
-    corners_[corner] = {slice.corners.get() + offset, slice.ids.data()};
+    corners_[corner] = slice.corners.get() + offset;
   }
 }
 
@@ -33,17 +33,8 @@ void CellRow::advance() {
   ++y_;
   for (const std::uint8_t*& classes : classes_) classes += nx_;
   for (const ClassRange*& bricks : bricks_) bricks += brick_count(nx_);
-  for (Vertices& vertices : edges_) vertices.handles += nx_;
-  for (Vertices& vertices : corners_) vertices.handles += nx_;
-}
-
-ClassRange CellRow::brick_range(std::size_t brick) const {
-  ClassRange range = bricks_[0][brick];
-  for (std::size_t row = 1; row < 4; ++row) {
-    range.lo = std::min(range.lo, bricks_[row][brick].lo);
-    range.hi = std::max(range.hi, bricks_[row][brick].hi);
-  }
-  return range;
+  for (const std::uint32_t*& handles : edges_) handles += nx_;
+  for (const std::uint32_t*& handles : corners_) handles += nx_;
 }
 
 void CellRow::cell_ranges(std::size_t brick, std::uint8_t* lo, std::uint8_t* hi) const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -16,7 +17,7 @@ namespace nacre {
 class CellRow {
  public:
   CellRow(const SweepGrid& grid, std::size_t z, const LatticeSlice& lower,
-          const LatticeSlice& upper, const LatticeGap& gap);
+          const LatticeSlice& upper, const LatticeGap& gap, const VertexIds& ids);
 
   /// On to the next y.
   void advance();
@@ -37,35 +38,36 @@ class CellRow {
 
   /// Vertex of level k on an edge of cell x.
   std::uint32_t edge_vertex(std::size_t edge, std::size_t x, std::size_t k) const {
-    const Vertices& vertices = edges_[edge];
-    return vertices.ids[static_cast<std::uint32_t>(vertices.handles[x] + k)];
+    return ids_[static_cast<std::uint32_t>(edges_[edge][x] + k)];
   }
 
   /// Vertex of level k at a corner of cell x on the volume's border.
   std::uint32_t corner_vertex(std::size_t corner, std::size_t x, std::size_t k) const {
-    const Vertices& vertices = corners_[corner];
-    return vertices.ids[static_cast<std::uint32_t>(vertices.handles[x] + k)];
+    return ids_[static_cast<std::uint32_t>(corners_[corner][x] + k)];
   }
 
   /// The joint class range of the row's four bricks.
-  ClassRange brick_range(std::size_t brick) const;
+  ClassRange brick_range(std::size_t brick) const {
+    ClassRange range = bricks_[0][brick];
+    for (std::size_t row = 1; row < 4; ++row) {
+      range.lo = std::min(range.lo, bricks_[row][brick].lo);
+      range.hi = std::max(range.hi, bricks_[row][brick].hi);
+    }
+    return range;
+  }
 
   /// The class range of each cell of a brick. Writes whole bricks, also where the row ends.
   void cell_ranges(std::size_t brick, std::uint8_t* lo, std::uint8_t* hi) const;
 
  private:
-  struct Vertices {
-    const std::uint32_t* handles = nullptr;
-    const std::uint32_t* ids = nullptr;
-  };
-
   std::size_t nx_;
   std::size_t y_ = 0;
   std::size_t z_;
   std::array<const std::uint8_t*, 4> classes_{};  ///< of the rows y z, y+1 z, y z+1, y+1 z+1
   std::array<const ClassRange*, 4> bricks_{};
-  std::array<Vertices, kCellEdges> edges_;
-  std::array<Vertices, kCellCorners> corners_;
+  std::array<const std::uint32_t*, kCellEdges> edges_{};  ///< handles of vertices, by x
+  std::array<const std::uint32_t*, kCellCorners> corners_{};
+  const std::uint32_t* ids_;
 };
 
 }  // namespace nacre

@@ -58,6 +58,9 @@ SimpleCase simple_case(const CellCase& traced) {
   for (std::size_t i = 0; i < std::size_t{3} * loop.triangle_count; ++i) {
     simple.edges[i] = loop.triangles[i / 3][i % 3];
   }
+  for (std::size_t i = std::size_t{3} * loop.triangle_count; i < simple.edges.size(); ++i) {
+    simple.edges[i] = loop.edges[0];
+  }
   return simple;
 }
 

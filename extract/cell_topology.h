@@ -57,8 +57,8 @@ struct CellCase {
 /// cell edges, are ready to be copied.
 struct SimpleCase {
   static constexpr std::uint8_t kNotSimple = 0xff;
-  std::uint8_t triangle_count = 0;  ///< or kNotSimple
-  std::array<std::uint8_t, 15> edges{};
+  std::uint8_t triangle_count = 0;       ///< or kNotSimple
+  std::array<std::uint8_t, 15> edges{};  ///< past the last triangle: one of its edges
 };
 
 /// All cases of all masks, built once.

@@ -26,6 +26,7 @@ class ChunkArena {
   using Block = std::unique_ptr<std::byte[], Free>;
 
   static Block allocate_block(std::size_t size);
+  std::size_t next_block_size() const;
 
   std::vector<Block> blocks_;
   std::size_t used_blocks_ = 0;

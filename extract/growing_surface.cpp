@@ -13,6 +13,9 @@
 namespace nacre {
 namespace {
 
+/// 6 kB: they stay in the nearest cache beside what they are copied to.
+constexpr std::size_t kTrianglesAtATime = 512;
+
 /// Room for more elements, at once for those that the slabs to come may add: what is not used is
 /// never touched, so that it costs addresses (up to four times those needed), not memory.
 template <class Element>
@@ -54,12 +57,13 @@ void read_more(const ScratchFile& file, std::uint64_t offset, std::size_t count,
 
 }  // namespace
 
-/// Gives a part's triangles their numbers in the whole surface.
-void GrowingSurface::renumber(LevelOutput& part, std::size_t level, bool reversed) {
+GrowingSurface::Numbering GrowingSurface::number(const LevelOutput& part, std::size_t level,
+                                                 bool reversed) {
   const std::uint64_t own_begin = vertices_ - part.shared_count;
-  const auto shared_count = static_cast<std::uint32_t>(part.shared_count);
-  const auto shared_offset = static_cast<std::uint32_t>(top_begin_);
-  const auto own_offset = static_cast<std::uint32_t>(own_begin);
+  const Numbering numbering{.shared_count = static_cast<std::uint32_t>(part.shared_count),
+                            .shared_offset = static_cast<std::uint32_t>(top_begin_),
+                            .own_offset = static_cast<std::uint32_t>(own_begin),
+                            .reversed = reversed};
   top_begin_ = own_begin + part.top_begin;
   vertices_ = own_begin + part.next_vertex;
   if (vertices_ > std::numeric_limits<std::uint32_t>::max()) {
@@ -67,24 +71,46 @@ void GrowingSurface::renumber(LevelOutput& part, std::size_t level, bool reverse
                 fmt::format("surface of level {}: found {} vertices, expected at most 2^32 - 1",
                             level + 1, vertices_));
   }
-  part.triangles.for_each_chunk([&](std::span<glm::uvec3> chunk) {
-    for (glm::uvec3& triangle : chunk) {
-      for (int i = 0; i < 3; ++i) {
-        triangle[i] += triangle[i] < shared_count ? shared_offset : own_offset;
-      }
-      if (reversed) std::swap(triangle.y, triangle.z);
+  return numbering;
+}
+
+void GrowingSurface::renumber(std::span<glm::uvec3> triangles, const Numbering& numbering) {
+  if (triangles.empty()) return;
+  const auto [shared_count, shared_offset, own_offset, reversed] = numbering;
+  const std::uint32_t shared_not_own = shared_offset - own_offset;
+  // As plain numbers, which the compiler takes several at a time.
+  for (std::uint32_t& number : std::span(&triangles.front().x, 3 * triangles.size())) {
+    number += own_offset + (number < shared_count ? shared_not_own : 0);
+  }
+  if (!reversed) return;
+  for (glm::uvec3& triangle : triangles) std::swap(triangle.y, triangle.z);
+}
+
+/// Some at a time, so that they are copied while they are near.
+void GrowingSurface::append_triangles(ChunkedStream<glm::uvec3>& stream, const Numbering& numbering,
+                                      double share, std::vector<glm::uvec3>& triangles) {
+  make_room(triangles, stream.size(), share);
+  stream.for_each_chunk([&](std::span<glm::uvec3> chunk) {
+    for (std::size_t begin = 0; begin < chunk.size(); begin += kTrianglesAtATime) {
+      const auto some = chunk.subspan(begin, std::min(kTrianglesAtATime, chunk.size() - begin));
+      renumber(some, numbering);
+      triangles.insert(triangles.end(), some.begin(), some.end());
     }
   });
 }
 
 void GrowingSurface::append(LevelOutput& part, std::size_t level, bool reversed, double share,
                             ScratchFile* file) {
-  renumber(part, level, reversed);
+  Numbering numbering = number(part, level, reversed);
   triangles_ += part.triangles.size();
-  if (file != nullptr && !is_disk_full_ && store(part, *file)) return;
+  if (file != nullptr && !is_disk_full_) {
+    part.triangles.for_each_chunk([&](std::span<glm::uvec3> chunk) { renumber(chunk, numbering); });
+    if (store(part, *file)) return;
+    numbering = {};  // its triangles have their numbers
+  }
   TriangleMesh& mesh = places_.empty() ? head_ : tail_;
   append_all(part.positions, share, mesh.positions);
-  append_all(part.triangles, share, mesh.triangles);
+  append_triangles(part.triangles, numbering, share, mesh.triangles);
 }
 
 bool GrowingSurface::store(LevelOutput& part, ScratchFile& file) {

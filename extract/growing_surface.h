@@ -2,6 +2,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
 #include <vector>
 
 #include "core/triangle_mesh.h"
@@ -42,7 +44,18 @@ class GrowingSurface {
     std::size_t triangle_count = 0;
   };
 
-  void renumber(LevelOutput& part, std::size_t level, bool reversed);
+  /// How a part's numbers become those of the whole surface.
+  struct Numbering {
+    std::uint32_t shared_count = 0;   ///< numbers below it are of the slab below
+    std::uint32_t shared_offset = 0;  ///< to be added to them
+    std::uint32_t own_offset = 0;     ///< to be added to the others
+    bool reversed = false;            ///< turn the triangles round
+  };
+
+  Numbering number(const LevelOutput& part, std::size_t level, bool reversed);
+  static void renumber(std::span<glm::uvec3> triangles, const Numbering& numbering);
+  void append_triangles(ChunkedStream<glm::uvec3>& stream, const Numbering& numbering, double share,
+                        std::vector<glm::uvec3>& triangles);
   bool store(LevelOutput& part, ScratchFile& file);
 
   std::uint64_t vertices_ = 0;

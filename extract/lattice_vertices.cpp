@@ -56,18 +56,24 @@ void LatticeVertices<T>::add_edge(const Edge& edge, VertexIds& ids, std::uint32_
     for (std::size_t k = lo; k < hi; ++k) *added++ = output.levels[k].new_vertex();
     return;
   }
+  // Copies: nothing that is written can be taken for them.
   const double margin = grid_.margins[edge.axis];
+  const glm::dvec3 start_mm = edge.start_mm;
+  const glm::dvec3 step_mm = grid_.steps_mm[edge.axis];
+  const double* crossings = levels_.crossings.data();
+  LevelOutput* levels = output.levels.data();
   const auto a = static_cast<double>(edge.a);
   const auto b = static_cast<double>(edge.b);
   for (std::size_t k = lo; k < hi; ++k) {
-    const double t = std::clamp(crossing<T>(levels_.crossings[k], a, b), margin, 1.0 - margin);
-    *added++ = output.levels[k].new_vertex();
-    output.write_position(k, edge.start_mm + grid_.steps_mm[edge.axis] * t);
+    const double t = std::clamp(crossing<T>(crossings[k], a, b), margin, 1.0 - margin);
+    *added++ = levels[k].new_vertex();
+    *levels[k].positions.room(output.arena) = glm::vec3(start_mm + step_mm * t);
+    levels[k].positions.commit(1);
   }
 }
 
 template <class T>
-void LatticeVertices<T>::add_row(std::size_t y, std::size_t z, LatticeSlice& slice,
+void LatticeVertices<T>::add_row(std::size_t y, std::size_t z, LatticeSlice& slice, VertexIds& ids,
                                  SlabOutput& output, Ownership ownership) const {
   const std::size_t nx = grid_.dims[0];
   const std::size_t row = nx * y;
@@ -81,7 +87,7 @@ void LatticeVertices<T>::add_row(std::size_t y, std::size_t z, LatticeSlice& sli
                     .b = samples_[sample + grid_.strides[axis]],
                     .axis = axis,
                     .start_mm = row_start_mm + grid_.steps_mm[0] * static_cast<double>(x)};
-    add_edge(edge, slice.ids, handles[row + x], output, ownership);
+    add_edge(edge, ids, handles[row + x], output, ownership);
   };
 
   const std::size_t bricks = brick_count(nx);
@@ -105,12 +111,12 @@ void LatticeVertices<T>::add_row(std::size_t y, std::size_t z, LatticeSlice& sli
 
 template <class T>
 void LatticeVertices<T>::add_corner(std::size_t x, std::size_t y, std::size_t z,
-                                    LatticeSlice& slice, SlabOutput& output,
+                                    LatticeSlice& slice, VertexIds& ids, SlabOutput& output,
                                     Ownership ownership) const {
   const std::size_t in_slice = x + grid_.dims[0] * y;
   const std::size_t levels = slice.classes[in_slice];
   if (levels == 0) return;
-  std::uint32_t* added = slice.ids.add(0, levels, slice.corners[in_slice]);
+  std::uint32_t* added = ids.add(0, levels, slice.corners[in_slice]);
   for (std::size_t k = 0; k < levels; ++k) *added++ = output.levels[k].new_vertex();
   if (ownership == Ownership::Shared) return;
   const glm::dvec3 position_mm = position(x, y, z);
@@ -119,28 +125,36 @@ void LatticeVertices<T>::add_corner(std::size_t x, std::size_t y, std::size_t z,
 
 template <class T>
 void LatticeVertices<T>::add_border_corners(std::size_t y, std::size_t z, LatticeSlice& slice,
-                                            SlabOutput& output, Ownership ownership) const {
+                                            VertexIds& ids, SlabOutput& output,
+                                            Ownership ownership) const {
   const auto& [nx, ny, nz] = grid_.dims;
-  const bool whole_row = z == 0 || z == nz - 1 || y == 0 || y == ny - 1;
-  const std::size_t step = whole_row ? 1 : nx - 1;
-  for (std::size_t x = 0; x < nx; x += step) add_corner(x, y, z, slice, output, ownership);
+  const auto add = [&](std::size_t x) { add_corner(x, y, z, slice, ids, output, ownership); };
+  if (z != 0 && z != nz - 1 && y != 0 && y != ny - 1) {
+    add(0);
+    add(nx - 1);
+    return;
+  }
+  const std::size_t bricks = brick_count(nx);
+  for (std::size_t b = 0; b < bricks; ++b) {
+    if (slice.bricks[bricks * y + b].hi == 0) continue;
+    const std::size_t end = b + 1 == bricks ? nx : (b + 1) * kBrickCells;
+    for (std::size_t x = b * kBrickCells; x < end; ++x) add(x);
+  }
 }
 
 template <class T>
-void LatticeVertices<T>::add_in_slice(std::size_t z, LatticeSlice& slice, SlabOutput& output,
-                                      Ownership ownership) const {
-  slice.ids.clear();
+void LatticeVertices<T>::add_in_slice(std::size_t z, LatticeSlice& slice, VertexIds& ids,
+                                      SlabOutput& output, Ownership ownership) const {
   for (std::size_t y = 0; y < grid_.dims[1]; ++y) {
-    add_row(y, z, slice, output, ownership);
-    add_border_corners(y, z, slice, output, ownership);
+    add_row(y, z, slice, ids, output, ownership);
+    add_border_corners(y, z, slice, ids, output, ownership);
   }
 }
 
 template <class T>
 void LatticeVertices<T>::add_between(std::size_t z, const LatticeSlice& lower,
-                                     const LatticeSlice& upper, LatticeGap& gap,
+                                     const LatticeSlice& upper, LatticeGap& gap, VertexIds& ids,
                                      SlabOutput& output) const {
-  gap.ids.clear();
   const std::size_t nx = grid_.dims[0];
   const std::size_t bricks = brick_count(nx);
   for (std::size_t y = 0; y < grid_.dims[1]; ++y) {
@@ -156,7 +170,7 @@ void LatticeVertices<T>::add_between(std::size_t z, const LatticeSlice& lower,
                       .b = samples_[sample + grid_.strides[2]],
                       .axis = 2,
                       .start_mm = row_start_mm + grid_.steps_mm[0] * static_cast<double>(x)};
-      add_edge(edge, gap.ids, gap.z_edges[row + x], output, Ownership::Own);
+      add_edge(edge, ids, gap.z_edges[row + x], output, Ownership::Own);
     };
     for (std::size_t b = 0; b < bricks; ++b) {
       const ClassRange& at_lower = lower.bricks[bricks * y + b];

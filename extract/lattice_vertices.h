@@ -37,24 +37,24 @@ class LatticeVertices {
 
   /// Adds the vertices on the slice's x and y edges and, on the volume's border, one vertex per
   /// sample and level it is inside of: the corners of the caps.
-  void add_in_slice(std::size_t z, LatticeSlice& slice, SlabOutput& output,
+  void add_in_slice(std::size_t z, LatticeSlice& slice, VertexIds& ids, SlabOutput& output,
                     Ownership ownership) const;
 
   /// Adds the vertices on the z edges between slices z and z + 1.
   void add_between(std::size_t z, const LatticeSlice& lower, const LatticeSlice& upper,
-                   LatticeGap& gap, SlabOutput& output) const;
+                   LatticeGap& gap, VertexIds& ids, SlabOutput& output) const;
 
  private:
   struct Edge;
 
   void add_edge(const Edge& edge, VertexIds& ids, std::uint32_t& handle, SlabOutput& output,
                 Ownership ownership) const;
-  void add_row(std::size_t y, std::size_t z, LatticeSlice& slice, SlabOutput& output,
-               Ownership ownership) const;
-  void add_corner(std::size_t x, std::size_t y, std::size_t z, LatticeSlice& slice,
+  void add_row(std::size_t y, std::size_t z, LatticeSlice& slice, VertexIds& ids,
+               SlabOutput& output, Ownership ownership) const;
+  void add_corner(std::size_t x, std::size_t y, std::size_t z, LatticeSlice& slice, VertexIds& ids,
                   SlabOutput& output, Ownership ownership) const;
-  void add_border_corners(std::size_t y, std::size_t z, LatticeSlice& slice, SlabOutput& output,
-                          Ownership ownership) const;
+  void add_border_corners(std::size_t y, std::size_t z, LatticeSlice& slice, VertexIds& ids,
+                          SlabOutput& output, Ownership ownership) const;
   glm::dvec3 position(std::size_t x, std::size_t y, std::size_t z) const {
     return grid_.position_mm(glm::dvec3(x, y, z));
   }

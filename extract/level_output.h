@@ -15,9 +15,12 @@ namespace nacre {
 template <class Element>
 class ChunkedStream {
  public:
-  /// Room for `count` more elements, at most `kFirstChunk`; `commit` says how many were written.
-  Element* room(std::size_t count, ChunkArena& arena) {
-    if (static_cast<std::size_t>(end_ - cursor_) < count) add_chunk(arena);
+  /// As many as a cell's contour has triangles, in the usual cases.
+  static constexpr std::size_t kRoom = 5;
+
+  /// Room for `kRoom` more elements; `commit` says how many of them were written.
+  Element* room(ChunkArena& arena) {
+    if (cursor_ >= full_at_) add_chunk(arena);
     return cursor_;
   }
   void commit(std::size_t count) { cursor_ += count; }
@@ -31,7 +34,7 @@ class ChunkedStream {
   /// Forgets all elements, before the arena takes its memory back.
   void clear() {
     full_.clear();
-    begin_ = cursor_ = end_ = nullptr;
+    begin_ = cursor_ = full_at_ = nullptr;
     next_chunk_ = kFirstChunk;
   }
 
@@ -49,14 +52,14 @@ class ChunkedStream {
   void add_chunk(ChunkArena& arena) {
     if (begin_ != nullptr) full_.emplace_back(begin_, cursor_);
     begin_ = cursor_ = static_cast<Element*>(arena.allocate(next_chunk_ * sizeof(Element)));
-    end_ = begin_ + next_chunk_;
+    full_at_ = begin_ + (next_chunk_ - kRoom + 1);
     next_chunk_ = std::min(2 * next_chunk_, kLargestChunk);
   }
 
   std::vector<std::span<Element>> full_;
   Element* begin_ = nullptr;
   Element* cursor_ = nullptr;
-  Element* end_ = nullptr;
+  Element* full_at_ = nullptr;  ///< the first place with too little room
   std::size_t next_chunk_ = kFirstChunk;
 };
 
@@ -91,12 +94,12 @@ struct SlabOutput {
   }
 
   void write_position(std::size_t k, const glm::dvec3& position_mm) {
-    *levels[k].positions.room(1, arena) = glm::vec3(position_mm);
+    *levels[k].positions.room(arena) = glm::vec3(position_mm);
     levels[k].positions.commit(1);
   }
 
   void write_triangle(std::size_t k, const glm::uvec3& triangle) {
-    *levels[k].triangles.room(1, arena) = triangle;
+    *levels[k].triangles.room(arena) = triangle;
     levels[k].triangles.commit(1);
   }
 

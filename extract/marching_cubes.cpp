@@ -21,7 +21,7 @@ namespace {
 constexpr std::size_t kLevelsPerSweep = 255;
 
 /// Slabs a thread should have, so that uneven ones even out; their thickness changes no output.
-constexpr std::size_t kSlabsPerThread = 8;
+constexpr std::size_t kSlabsPerThread = 4;
 /// Thicker slabs need more memory before they are appended, thinner ones sweep more slices twice.
 constexpr std::size_t kThickestSlab = 8;
 constexpr std::size_t kThinnestSlab = 4;

@@ -41,7 +41,7 @@ namespace nacre {
 ///
 /// One pass over the samples for up to 255 values, on all threads; bricks of 64 cells that no level
 /// crosses cost a few instructions. Beside volume and result it needs about 60 bytes a sample of
-/// one slice, per thread.
+/// one slice and what one slab adds to the result, per thread.
 std::vector<TriangleMesh> extract_surfaces(const Volume& volume, std::span<const double> values,
                                            const ProgressCallback& progress = {});
 

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "extract/sample_range.h"
 #include "extract/stored_levels.h"
 
 namespace nacre {
@@ -28,8 +29,9 @@ struct ClassRange {
 
 /// Turns rows of stored samples into rows of classes (see `StoredLevels`).
 ///
-/// A brick's range of samples comes first, a few instructions for sixteen samples; only where a
-/// level lies within that range is every sample looked at, and only against the levels in it.
+/// A brick's range of samples comes first, a few instructions for sixteen samples; only where it
+/// leaves the class of the brick's first sample is every sample looked at, and only against the
+/// levels in that range.
 template <class T>
 class SampleClasses {
  public:
@@ -53,8 +55,10 @@ class SampleClasses {
   }
   void of_samples(std::span<const T> samples, std::uint8_t lo, std::uint8_t hi,
                   std::uint8_t* classes) const;
+  ClassRange of_brick(std::span<const T> samples, std::uint8_t* classes) const;
 
   std::vector<T> thresholds_;
+  std::vector<LaneRange<T>> spans_;  ///< the samples of each rank, in all lanes
   std::vector<std::uint8_t> table_;  ///< of the ranks, for types of 8 and 16 bits
   bool descending_;
   std::uint8_t base_;

@@ -66,30 +66,39 @@ struct SampleLanes {
   }
 };
 
+/// Smallest and largest samples lane by lane.
+template <class T>
+struct LaneRange {
+  typename SampleLanes<T>::Vector least;
+  typename SampleLanes<T>::Vector largest;
+};
+
+/// @param samples  at least as many as lanes, all finite
+template <class T>
+LaneRange<T> lane_range(std::span<const T> samples) {
+  using Lanes = SampleLanes<T>;
+  // The last lanes, which may overlap those before them.
+  const auto last = Lanes::load(samples.data() + (samples.size() - Lanes::kCount));
+  LaneRange<T> range{last, last};
+  for (std::size_t i = 0; i + Lanes::kCount < samples.size(); i += Lanes::kCount) {
+    const auto lanes = Lanes::load(samples.data() + i);
+    range.least = Lanes::min(range.least, lanes);
+    range.largest = Lanes::max(range.largest, lanes);
+  }
+  return range;
+}
+
 /// Smallest and largest sample.
 /// @param samples  at least one, all finite
 template <class T>
 std::pair<T, T> sample_range(std::span<const T> samples) {
   using Lanes = SampleLanes<T>;
-  T lo = samples.back();
-  T hi = lo;
-  std::size_t i = 0;
   if (samples.size() >= Lanes::kCount) {
-    auto least = Lanes::load(samples.data());
-    auto largest = least;
-    for (; i + Lanes::kCount <= samples.size(); i += Lanes::kCount) {
-      const auto lanes = Lanes::load(samples.data() + i);
-      least = Lanes::min(least, lanes);
-      largest = Lanes::max(largest, lanes);
-    }
-    lo = std::min(lo, Lanes::least(least));
-    hi = std::max(hi, Lanes::largest(largest));
+    const LaneRange<T> range = lane_range(samples);
+    return {Lanes::least(range.least), Lanes::largest(range.largest)};
   }
-  for (; i < samples.size(); ++i) {
-    lo = std::min(lo, samples[i]);
-    hi = std::max(hi, samples[i]);
-  }
-  return {lo, hi};
+  const auto [least, largest] = std::ranges::minmax(samples);
+  return {least, largest};
 }
 
 }  // namespace nacre

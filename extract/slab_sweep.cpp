@@ -12,8 +12,7 @@ namespace {
 /// Numbers within a slab have 32 bits; they wrapped without harm until here.
 void check_numbers(const SlabOutput& output, const SweepWorkspace& workspace) {
   constexpr std::uint64_t kLargest = std::numeric_limits<std::uint32_t>::max();
-  std::uint64_t largest =
-      std::max<std::uint64_t>(workspace.upper.ids.size(), workspace.gap.ids.size());
+  std::uint64_t largest = workspace.ids.size();
   for (const LevelOutput& level : output.levels) largest = std::max(largest, level.next_vertex);
   if (largest > kLargest) {
     throw Error(ErrorCode::Unsupported,
@@ -32,20 +31,21 @@ void begin_slab(SlabOutput& output, Ownership ownership) {
 template <class T>
 void sweep_slab(const Slab& slab, const LatticeVertices<T>& vertices, const CellContours& contours,
                 const SweepGrid& grid, SweepWorkspace& workspace, SlabOutput& output) {
-  auto& [lower, upper, gap] = workspace;
+  auto& [lower, upper, gap, ids] = workspace;
   const Ownership ownership = slab.begin == 0 ? Ownership::Own : Ownership::Shared;
+  ids.clear();
   vertices.classify(slab.begin, upper);
-  vertices.add_in_slice(slab.begin, upper, output, ownership);
+  vertices.add_in_slice(slab.begin, upper, ids, output, ownership);
   begin_slab(output, ownership);
 
   for (std::size_t z = slab.begin; z < slab.end; ++z) {
     std::swap(lower, upper);
     vertices.classify(z + 1, upper);
-    vertices.add_between(z, lower, upper, gap, output);
+    vertices.add_between(z, lower, upper, gap, ids, output);
     for (LevelOutput& level : output.levels) level.top_begin = level.next_vertex;
-    vertices.add_in_slice(z + 1, upper, output, Ownership::Own);
+    vertices.add_in_slice(z + 1, upper, ids, output, Ownership::Own);
     check_numbers(output, workspace);
-    contours.add_layer(CellRow(grid, z, lower, upper, gap), output);
+    contours.add_layer(CellRow(grid, z, lower, upper, gap, ids), output);
   }
 }
 

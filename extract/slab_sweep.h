@@ -12,7 +12,8 @@
 
 namespace nacre {
 
-/// What one thread needs to sweep a slab: two slices and the gap between them.
+/// What one thread needs to sweep a slab: two slices, the gap between them, and the numbers of the
+/// vertices so far.
 struct SweepWorkspace {
   explicit SweepWorkspace(const SweepGrid& grid)
       : lower(grid.dims[0], grid.dims[1]),
@@ -22,6 +23,7 @@ struct SweepWorkspace {
   LatticeSlice lower;
   LatticeSlice upper;
   LatticeGap gap;
+  VertexIds ids;
 };
 
 /// The cell layers [begin, end) of a volume: between slices begin and end.
