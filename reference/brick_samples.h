@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstring>
 #include <glm/common.hpp>
 #include <glm/vec3.hpp>
 
@@ -23,6 +24,34 @@ inline unsigned long long cells_within(const glm::ivec3& cells) {
   return first(cells.x, 1) * first(cells.y, kSide) * first(cells.z, kSide * kSide);
 }
 
+/// A row of five samples, in field units.
+template <class T>
+inline void load_row(const T* row, double factor, double* out) {
+  constexpr int kFour = 4;
+  static_assert(BrickSamples::kSamples == kFour + 1);
+  using Samples [[gnu::vector_size(kFour * sizeof(T))]] = T;
+  using Doubles [[gnu::vector_size(kFour * sizeof(double))]] = double;
+  Samples samples;
+  std::memcpy(&samples, row, sizeof(samples));
+  const Doubles values = factor * __builtin_convertvector(samples, Doubles);
+  std::memcpy(out, &values, sizeof(values));
+  out[kFour] = factor * static_cast<double>(row[kFour]);
+}
+
+/// Asks for a brick's samples ahead of `load_samples`.
+inline void prefetch_samples(const WalkField& field, const glm::ivec3& first_cell) {
+  constexpr int kSamples = BrickSamples::kSamples;
+  const glm::i64vec3& dims = field.volume->dims;
+  if (first_cell.y + kSamples > dims.y || first_cell.z + kSamples > dims.z) return;
+  visit_samples(*field.volume, [&]<class T>(std::span<const T> samples) {
+    const T* first =
+        samples.data() + (first_cell.x + dims.x * (first_cell.y + dims.y * first_cell.z));
+    for (int z = 0; z < kSamples; ++z) {
+      for (int y = 0; y < kSamples; ++y) __builtin_prefetch(first + dims.x * (y + dims.y * z));
+    }
+  });
+}
+
 /// Reads a brick's samples. Beyond the border the last sample is repeated (so a volume of one
 /// sample along an axis has a cell there between it and itself).
 inline void load_samples(const WalkField& field, const glm::ivec3& first_cell,
@@ -42,8 +71,8 @@ inline void load_samples(const WalkField& field, const glm::ivec3& first_cell,
           samples.data() + (first_cell.x + dims.x * (first_cell.y + dims.y * first_cell.z));
       for (int z = 0; z < kSamples; ++z) {
         for (int y = 0; y < kSamples; ++y) {
-          const T* row = first + dims.x * (y + dims.y * z);
-          for (int x = 0; x < kSamples; ++x) *out++ = factor * static_cast<double>(row[x]);
+          load_row(first + dims.x * (y + dims.y * z), factor, out);
+          out += kSamples;
         }
       }
       return;

@@ -243,6 +243,17 @@ inline Mask ends_stay_below(const Quartics& q, const Doubles& best) {
   return (q.c[0] <= best) & (q.c[4] <= best);
 }
 
+/// The same of both halves, which tell more (de Casteljau); their outer ends do not count.
+inline Mask halves_stay_below(const Quartics& q, const Doubles& best) {
+  Doubles c[5] = {q.c[0], q.c[1], q.c[2], q.c[3], q.c[4]};
+  Mask below = best == best;
+  for (int size = 4; size > 0; --size) {
+    for (int i = 0; i < size; ++i) c[i] = 0.5 * (c[i] + c[i + 1]);
+    below &= (c[0] <= best) & (c[size - 1] <= best);
+  }
+  return below;
+}
+
 template <bool kSlack>
 void visit_each(const LaneRays& rays, const BrickSamples& brick, const BrickCell& cell,
                 const LaneRectangle& rectangle, const EmissionBound& bound, const OnePiece& map,
@@ -262,6 +273,8 @@ void visit_each(const LaneRays& rays, const BrickSamples& brick, const BrickCell
           // The ends are seen; but beyond the map's end the bound lies above it.
           const Mask ends = (greatest(f.b[0], f.b[3]) <= map.hi) | ends_stay_below(q, best);
           brighter &= ~((most <= best) | (inner_stay_below(q, best) & ends));
+          if (bits(brighter) == 0) return;
+          brighter &= ~(halves_stay_below(q, best) & ends);
         }
         for (unsigned left = bits(brighter); left != 0; left &= left - 1) {
           const int lane = __builtin_ctz(left);

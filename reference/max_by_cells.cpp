@@ -226,6 +226,7 @@ template <class Maximum>
 void start_rays(const Frame& frame, const PixelRange& tile, Workplace<Maximum>& work,
                 Picture& picture) {
   work.rays.clear();
+  PixelLine line;
   for (int y = tile.first.y; y <= tile.last.y; ++y) {
     for (int x = tile.first.x; x <= tile.last.x; ++x) {
       double t_tool = std::numeric_limits<double>::infinity();
@@ -234,13 +235,12 @@ void start_rays(const Frame& frame, const PixelRange& tile, Workplace<Maximum>& 
         t_tool = draw_tool_pixel(*frame.tools, frame.camera, frame.cue, ray, x, y, *picture.tools);
       }
       if (work.items.empty() && !frame.lines.shows_always()) continue;
-      auto line = frame.lines.at(x, y);
-      if (!line) continue;
-      line->visible.t_exit = std::min(line->visible.t_exit, t_tool - line->t_shift_mm);
-      if (!(line->visible.t_enter < line->visible.t_exit)) continue;
+      if (!frame.lines.find(x, y, line)) continue;
+      line.visible.t_exit = std::min(line.visible.t_exit, t_tool - line.t_shift_mm);
+      if (!(line.visible.t_enter < line.visible.t_exit)) continue;
       const glm::ivec2 place = glm::ivec2(x, y) - tile.first;
       const std::size_t ray = TileRays::index(place.x, place.y);
-      work.rays.put(place.x, place.y, *line, work.maximum.start(ray, *line, work.rays));
+      work.rays.put(place.x, place.y, line, work.maximum.start(ray, line, work.rays));
     }
   }
 }
@@ -286,6 +286,10 @@ void draw_tile(const Frame& frame, std::size_t tile, Workplace<Maximum>& work, P
     const PixelRange rectangle = intersection(frame.of_brick[work.items[i].brick], pixels);
     const double floor = least_best(rectangle);
     if (!(upper > floor)) continue;
+    if (i + 1 < work.items.size()) {
+      prefetch_samples(*frame.scene.field,
+                       frame.scene.bright->bricks[work.items[i + 1].brick].first_cell);
+    }
     draw_brick(frame, bright, pixels, rectangle, floor, lanes, work);
   }
   for (int y = pixels.first.y; y <= pixels.last.y; ++y) {

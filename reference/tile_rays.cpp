@@ -8,6 +8,12 @@
 #include <limits>
 
 namespace nacre {
+namespace {
+
+/// Cells from a border plane, within which a ray along it may be in it.
+constexpr double kWellInside = 1e-3;
+
+}  // namespace
 
 PixelLines::PixelLines(const WalkField& field, const Camera& camera, const Slab& slab)
     : field_(field),
@@ -24,20 +30,27 @@ PixelLines::PixelLines(const WalkField& field, const Camera& camera, const Slab&
   down_ = field.frame.cell_from_world * (-pixel_mm * camera.up);
   direction_mm_ = camera.forward;
   const glm::dvec3 steepness = glm::abs(first_.direction);
-  is_plain_ = !shows_always_ &&
-              std::min({steepness.x, steepness.y, steepness.z}) > slope_along_planes(steepness);
+  const double along = slope_along_planes(steepness);
+  is_plain_ = !shows_always_;
+  for (int axis = 0; axis < 3; ++axis) {
+    const bool is_along = steepness[axis] == 0.0;
+    is_plain_ = is_plain_ && (is_along || steepness[axis] > along);
+    least_[axis] = is_along ? kWellInside : -std::numeric_limits<double>::infinity();
+    most_[axis] = is_along ? static_cast<double>(field.cells[axis]) - kWellInside
+                           : std::numeric_limits<double>::infinity();
+  }
 }
 
-std::optional<PixelLine> PixelLines::entered(int x, int y) const {
-  const Ray ray = picture_ray(camera_, x + 0.5, y + 0.5);
-  const auto line = field_.enter(ray, visible_interval(camera_, ray, slab_));
-  if (!line) return std::nullopt;
-  return PixelLine{line->line, line->interval, line->t_begin_mm, ray.direction};
+bool PixelLines::find_entered(int x, int y, PixelLine& ray) const {
+  const Ray seen = picture_ray(camera_, x + 0.5, y + 0.5);
+  const auto line = field_.enter(seen, visible_interval(camera_, seen, slab_));
+  if (!line) return false;
+  ray = {line->line, line->interval, line->t_begin_mm, seen.direction};
+  return true;
 }
 
-std::optional<PixelLine> PixelLines::any(int x, int y) const {
-  if (shows_always_) return entered(x, y);
-  PixelLine ray{first_, visible_, 0.0, direction_mm_};
+bool PixelLines::find_any(int x, int y, PixelLine& ray) const {
+  if (shows_always_) return find_entered(x, y, ray);
   if (camera_.perspective) {
     // From the point beside the volume's centre, so that a far eye costs no digits.
     Ray seen = picture_ray(camera_, x + 0.5, y + 0.5);
@@ -48,7 +61,10 @@ std::optional<PixelLine> PixelLines::any(int x, int y) const {
     ray.direction_mm = seen.direction;
     ray.visible = {visible.t_begin_mm - ray.t_shift_mm, visible.t_end_mm - ray.t_shift_mm};
   } else {
-    ray.line = line(x, y);
+    put_line(x, y, ray.line);
+    ray.visible = visible_;
+    ray.t_shift_mm = 0.0;
+    ray.direction_mm = direction_mm_;
   }
   const glm::dvec3 steepness = glm::abs(ray.line.direction);
   const double along = slope_along_planes(steepness);
@@ -57,10 +73,13 @@ std::optional<PixelLine> PixelLines::any(int x, int y) const {
     // Well inside, a ray along an axis is a ray as any other.
     const double origin = ray.line.origin[axis];
     const auto end = static_cast<double>(field_.cells[axis]);
-    const bool well_inside = origin > 1e-3 && origin < end - 1e-3;
-    if (steepness[axis] != 0.0 || !well_inside) return entered(x, y);
+    if (steepness[axis] == 0.0 && (origin < -kWellInside || origin > end + kWellInside)) {
+      return false;
+    }
+    const bool well_inside = origin > kWellInside && origin < end - kWellInside;
+    if (steepness[axis] != 0.0 || !well_inside) return find_entered(x, y, ray);
   }
-  return ray;
+  return true;
 }
 
 TileRays::TileRays() : figures_(kColumns * kRays) {}
