@@ -231,6 +231,7 @@ void add_build_verb(CLI::App& app, int& /*status*/) {
                    "--levels, --tolerance or --quantization name is held")
       ->group("Shells");
   add_shell_flags(*verb, flags->shells);
+  add_compression_flag(*verb, flags->shells);
   verb->add_option(
           "--coarse", flags->shells.coarse,
           "Coarser copies of simplified shells in the file, for a first picture soon: none, the "

@@ -35,8 +35,11 @@ struct ShellFlags : LevelFlags {
 };
 
 /// Adds the flags of levels, --tolerance, --tolerance-weight, --tolerance-mm, --quantization,
-/// --compression, --min-component, --keep-specks and --purpose.
+/// --min-component, --keep-specks and --purpose.
 void add_shell_flags(CLI::App& verb, ShellFlags& flags);
+
+/// Adds --compression, for what writes a set.
+void add_compression_flag(CLI::App& verb, ShellFlags& flags);
 
 /// @throws Error  BadArgument for a --tolerance-weight of no tolerance
 void check_tolerance_weight(const ShellFlags& flags);

@@ -21,6 +21,8 @@ CLI::Validator finite_from_zero(double most, const char* expected) {
           "FLOAT"};
 }
 
+constexpr const char* kGroup = "Shells";
+
 }  // namespace
 
 void check_tolerance_weight(const ShellFlags& flags) {
@@ -49,12 +51,11 @@ double named_copies_tolerance(const ShellFlags& flags) {
 }
 
 void add_shell_flags(CLI::App& verb, ShellFlags& flags) {
-  const std::string group = "Shells";
   add_level_flags(verb, flags);
   verb.add_option("--tolerance", flags.tolerance,
                   "Emission error a simplified surface may have (0: no simplification)")
       ->check(finite_from_zero(1.0, "an emission from 0 to 1"))
-      ->group(group);
+      ->group(kGroup);
   verb.add_option(
           "--tolerance-weight", flags.tolerance_weight,
           "Where --tolerance may be used up. field: everywhere; picture: where the field is "
@@ -62,36 +63,39 @@ void add_shell_flags(CLI::App& verb, ShellFlags& flags) {
           "show more of an error (default: field, and picture for a --budget that chooses "
           "the tolerance)")
       ->check(CLI::IsMember({kFieldWeight, kPictureWeight}))
-      ->group(group);
+      ->group(kGroup);
   verb.add_option("--tolerance-mm", flags.tolerance_mm,
                   "MM a simplified surface may be off the extracted one (0: no simplification)")
       ->check(finite_from_zero(std::numeric_limits<double>::max(), "millimetres, 0 or more"))
-      ->group(group);
+      ->group(kGroup);
   verb.add_option("--quantization", flags.quantization,
                   "Bits of a coordinate (default: the fewest from 12 whose step is 1/64 of the "
                   "smallest spacing)")
       ->check(CLI::Range(1, 30))
-      ->group(group);
-  verb.add_option(
-          "--compression", flags.compression,
-          "Draco's effort, from 0 (soonest written and read) to 10 (smallest); default: 10, "
-          "8 for surfaces that are not simplified")
-      ->check(CLI::Range(0, kMostEffort))
-      ->group(group);
+      ->group(kGroup);
   auto* least = verb.add_option("--min-component", flags.min_component,
                                 "MM3: closed components of less volume are left out (default: "
                                 "1/64 of a voxel)")
                     ->check(finite_from_zero(1e30, "a volume in mm3"))
-                    ->group(group);
+                    ->group(kGroup);
   verb.add_flag("--keep-specks", flags.keep_specks, "Leave out no component for its size")
       ->excludes(least)
-      ->group(group);
+      ->group(kGroup);
   verb.add_option("--purpose", flags.purpose,
                   "max: cavities are left out, which no maximum projection shows that starts "
                   "outside the volume and has no slab; all: they stay, for sums and slabs, too")
       ->check(CLI::IsMember({"all", "max"}))
       ->capture_default_str()
-      ->group(group);
+      ->group(kGroup);
+}
+
+void add_compression_flag(CLI::App& verb, ShellFlags& flags) {
+  verb.add_option(
+          "--compression", flags.compression,
+          "Draco's effort, from 0 (soonest written and read) to 10 (smallest); default: 10, "
+          "8 for surfaces that are not simplified")
+      ->check(CLI::Range(0, kMostEffort))
+      ->group(kGroup);
 }
 
 }  // namespace nacre

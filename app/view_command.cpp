@@ -167,6 +167,7 @@ void add_view_verb(CLI::App& app, int& /*status*/) {
       ->check(CLI::Range(0, 65535));
   verb->add_flag("--no-open", flags->no_open, "Only say the address, open no browser");
   add_shell_flags(*verb, flags->shells);
+  add_compression_flag(*verb, flags->shells);
   add_volume_reading_flags(*verb, flags->volume);
   add_emission_flags(*verb, flags->volume);
   add_common_flags(*verb, flags->common);

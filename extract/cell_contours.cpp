@@ -62,8 +62,8 @@ void CellContours::add_layer(CellRow row, SlabOutput& output) const {
 void CellContours::add_row(const CellRow& row, SlabOutput& output) const {
   const std::size_t cells = grid_.dims[0] - 1;
   const std::size_t bricks = brick_count(grid_.dims[0]);
-  std::array<std::uint8_t, kBrickCells + 8> lo{};
-  std::array<std::uint8_t, kBrickCells + 8> hi{};
+  std::array<std::uint8_t, kBrickCells> lo{};
+  std::array<std::uint8_t, kBrickCells> hi{};
   for (std::size_t b = 0; b < bricks; ++b) {
     const ClassRange range = row.brick_range(b);
     if (range.lo == range.hi) continue;
@@ -94,7 +94,8 @@ void CellContours::add_cell(const CellRow& row, std::size_t x, std::size_t lo, s
               row.edge_vertex(simple.edges[3 * t + 1], x, k),
               row.edge_vertex(simple.edges[3 * t + 2], x, k)};
     };
-    // Two at once, whether or not there are: which of the two would be a coin tossed.
+    // Two at once, whether or not there are: a branch on it would be guessed wrong every other
+    // time.
     glm::uvec3* room = triangles.room(output.arena);
     room[0] = triangle(0);
     room[1] = triangle(1);

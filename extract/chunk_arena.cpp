@@ -15,10 +15,10 @@ namespace {
 
 constexpr std::size_t kFirstBlock = std::size_t{1} << 16;
 constexpr std::size_t kLargestBlock = std::size_t{1} << 18;
+constexpr std::size_t kLargePage = std::size_t{1} << 21;
 /// Once there are so many blocks, some 3 MB, what follows comes in large pages: less than half the
 /// cost for each byte touched, and all streams of a slab within reach of the processor's page
 /// table cache. Smaller slabs would not fill one.
-constexpr std::size_t kLargePage = std::size_t{1} << 21;
 constexpr std::size_t kBlocksBeforeLargePages = 12;
 constexpr std::size_t kAlignment = 16;
 

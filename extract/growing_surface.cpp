@@ -79,6 +79,7 @@ void GrowingSurface::renumber(std::span<glm::uvec3> triangles, const Numbering& 
   const auto [shared_count, shared_offset, own_offset, reversed] = numbering;
   const std::uint32_t shared_not_own = shared_offset - own_offset;
   // As plain numbers, which the compiler takes several at a time.
+  static_assert(sizeof(glm::uvec3) == 3 * sizeof(std::uint32_t));
   for (std::uint32_t& number : std::span(&triangles.front().x, 3 * triangles.size())) {
     number += own_offset + (number < shared_count ? shared_not_own : 0);
   }

@@ -56,7 +56,7 @@ void LatticeVertices<T>::add_edge(const Edge& edge, VertexIds& ids, std::uint32_
     for (std::size_t k = lo; k < hi; ++k) *added++ = output.levels[k].new_vertex();
     return;
   }
-  // Copies: nothing that is written can be taken for them.
+  // Copies: no write below can change them.
   const double margin = grid_.margins[edge.axis];
   const glm::dvec3 start_mm = edge.start_mm;
   const glm::dvec3 step_mm = grid_.steps_mm[edge.axis];

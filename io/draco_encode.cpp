@@ -15,8 +15,6 @@
 namespace nacre {
 namespace {
 
-constexpr int kSlowest = 10;
-
 /// Draco's parameters of a quantised attribute as they stand in its bytes.
 struct Quantization {
   glm::vec3 origin;
@@ -82,6 +80,7 @@ DracoData encode_draco(TriangleMesh&& mesh, const QuantizationGrid& grid, int co
   // ulp or more off for other floats below 16. In units of the grid all is an integer.
   const double unit = unit_mm(grid);
   const Quantization in_integers = in_units(grid, unit);
+  constexpr int kSlowest = 10;
   const int speed = kSlowest - std::clamp(compression, 0, kSlowest);
   draco::Encoder encoder;
   encoder.SetEncodingMethod(method == DracoMethod::Sequential ? draco::MESH_SEQUENTIAL_ENCODING

@@ -75,15 +75,15 @@ struct EmissionBound {
   double slope;
 };
 
-/// An emission map of one linear piece, which kernels take at the ends of a part themselves, as
-/// `EmissionMap` does, operation by operation. `is_one` is false where a map has more pieces.
-struct OnePiece {
+/// Where an emission map begins and ends. One of one linear piece kernels take at the ends of a
+/// part themselves, as `EmissionMap` does, operation by operation.
+struct MapEnds {
   double lo;
   double hi;
-  double width;   ///< hi - lo, finite
+  double width;   ///< hi - lo, finite if it is one piece
   double bottom;  ///< emission up to lo
   double top;     ///< emission from hi on
-  bool is_one;
+  bool is_one_piece;
 };
 
 /// What to do with a part of a ray.
@@ -99,7 +99,7 @@ struct PartVisitor {
 ///
 /// @pre  best is no less than the map's lowest times the cue anywhere on the ray
 using VisitParts = void (*)(const LaneRays&, const BrickSamples&, const BrickCell&,
-                            const LaneRectangle&, const EmissionBound&, const OnePiece&,
+                            const LaneRectangle&, const EmissionBound&, const MapEnds&,
                             const PartVisitor&);
 // NOLINTEND(modernize-avoid-c-arrays)
 

@@ -185,7 +185,7 @@ void raise(const LaneRays& rays, const BrickSamples& brick, const BrickCell& cel
 }
 
 /// T, as `EmissionMap` has it.
-inline Doubles emission_of(const OnePiece& map, const Doubles& value) {
+inline Doubles emission_of(const MapEnds& map, const Doubles& value) {
   const Doubles zero = value - value;
   const Doubles bottom = zero + map.bottom;
   const Doubles top = zero + map.top;
@@ -210,7 +210,7 @@ inline EndCues cues_of(const LaneRays& rays, std::size_t i, const Passage& passa
 
 /// Raises `best` to what the ends of the parts show, and returns it.
 inline Doubles raise_to_ends(const LaneRays& rays, std::size_t i, const Cubics& f,
-                             const EndCues& beta, const OnePiece& map, const Mask& mask) {
+                             const EndCues& beta, const MapEnds& map, const Mask& mask) {
   const Doubles before = load(rays.best + i);
   const Doubles ends =
       greatest(beta.enter * emission_of(map, f.b[0]), beta.exit * emission_of(map, f.b[3]));
@@ -256,7 +256,7 @@ inline Mask halves_stay_below(const Quartics& q, const Doubles& best) {
 
 template <bool kSlack>
 void visit_each(const LaneRays& rays, const BrickSamples& brick, const BrickCell& cell,
-                const LaneRectangle& rectangle, const EmissionBound& bound, const OnePiece& map,
+                const LaneRectangle& rectangle, const EmissionBound& bound, const MapEnds& map,
                 const PartVisitor& visitor) {
   for_rays<kSlack>(
       rays, brick, cell, rectangle,
@@ -268,7 +268,7 @@ void visit_each(const LaneRays& rays, const BrickSamples& brick, const BrickCell
         Mask brighter =
             mask & ~((most <= best) | (inner_stay_below(q, best) & ends_stay_below(q, best)));
         if (bits(brighter) == 0) return;
-        if (map.is_one) {
+        if (map.is_one_piece) {
           best = raise_to_ends(rays, i, f, beta, map, brighter);
           // The ends are seen; but beyond the map's end the bound lies above it.
           const Mask ends = (greatest(f.b[0], f.b[3]) <= map.hi) | ends_stay_below(q, best);
@@ -328,7 +328,7 @@ void raise_maxima(const LaneRays& rays, const BrickSamples& brick, const BrickCe
 }
 
 void visit_parts(const LaneRays& rays, const BrickSamples& brick, const BrickCell& cell,
-                 const LaneRectangle& rectangle, const EmissionBound& bound, const OnePiece& map,
+                 const LaneRectangle& rectangle, const EmissionBound& bound, const MapEnds& map,
                  const PartVisitor& visitor) {
   (rays.slack[0] != nullptr ? visit_each<true> : visit_each<false>)(rays, brick, cell, rectangle,
                                                                     bound, map, visitor);

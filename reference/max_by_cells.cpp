@@ -92,8 +92,7 @@ EmissionBound bound_of(const EmissionMap& map) {
   return {at_0 + kSafely * (1.0 + std::abs(at_0)), slope};
 }
 
-/// The map, if it is one piece that a kernel can take.
-OnePiece one_piece(const EmissionMap& map) {
+MapEnds ends_of(const EmissionMap& map) {
   const EmissionKnot& first = map.knots().front();
   const EmissionKnot& last = map.knots().back();
   const double width = last.value - first.value;
@@ -109,7 +108,7 @@ class CuedMaximum {
         cue_(cue),
         cell_cue_(*scene.field, cue),
         bound_(bound_of(scene.field->emission_of_field)),
-        one_piece_(one_piece(scene.field->emission_of_field)) {}
+        map_ends_(ends_of(scene.field->emission_of_field)) {}
 
   static constexpr bool kOrdered = false;
 
@@ -133,9 +132,9 @@ class CuedMaximum {
     return least_field_above(scene_.field->emission_of_field, floor / beta_of_brick_);
   }
   double upper_of_cell(double greatest) const {
+    if (!map_ends_.is_one_piece) return scene_.field->emission_of_field(greatest) * beta_of_brick_;
     const double on_line = bound_.at_0 + bound_.slope * greatest;
-    const double top = one_piece_.top;
-    return (on_line < top ? on_line : top) * beta_of_brick_;
+    return (on_line < map_ends_.top ? on_line : map_ends_.top) * beta_of_brick_;
   }
 
   void raise(TileRays& rays, const LaneRays& lanes, const BrickSamples& samples,
@@ -151,7 +150,7 @@ class CuedMaximum {
       best[ray] = emission.maximum_above(best[ray], {{part.b[0], part.b[1], part.b[2], part.b[3]}},
                                          {beta(part.t_enter), beta(part.t_exit)});
     };
-    scene_.kernel.visit_parts(lanes, samples, cell, rectangle, bound_, one_piece_,
+    scene_.kernel.visit_parts(lanes, samples, cell, rectangle, bound_, map_ends_,
                               {visit, &context});
   }
 
@@ -160,7 +159,7 @@ class CuedMaximum {
   CueField cue_;
   CellCue cell_cue_;
   EmissionBound bound_;
-  OnePiece one_piece_;
+  MapEnds map_ends_;
   double beta_of_brick_ = 0.0;
 };
 

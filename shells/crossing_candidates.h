@@ -34,7 +34,7 @@ class CrossingCandidates {
  public:
   /// @param triangles  corners from 0 to 2^23 - 1
   /// @param lowest  the brick's lowest point
-  /// @param bits  of its sides
+  /// @param bits  its sides are 2^bits
   void assign(const std::vector<GridTriangle>& triangles, const glm::ivec3& lowest,
               const glm::ivec3& bits);
 

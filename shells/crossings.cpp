@@ -5,6 +5,7 @@
 #include <tbb/parallel_invoke.h>
 #include <tbb/parallel_pipeline.h>
 #include <tbb/parallel_reduce.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <bit>
@@ -188,6 +189,7 @@ std::size_t count_crossings(const GridSurface& outer, const GridSurface& inner) 
   std::optional<BrickLists> of_inner;
   tbb::parallel_invoke([&] { of_outer.emplace(outer, bricks); },
                        [&] { of_inner.emplace(inner, bricks); });
+  if (!of_outer || !of_inner) return 0;  // cancelled: making another surface failed
   tbb::enumerable_thread_specific<Scratch> scratch;
   const auto in_brick = [&](std::size_t brick) {
     if (of_outer->is_empty(brick) || of_inner->is_empty(brick)) return std::size_t{0};
@@ -238,7 +240,12 @@ std::vector<NeighbourCrossings> count_neighbour_crossings(const ShellSet& set,
   std::size_t counted = 0;
   const auto count = [&](Surface inner) {
     const std::size_t i = counted++;
-    if (outer) result.push_back({shells[i - 1], shells[i], count_crossings(*outer, *inner)});
+    if (outer) {
+      // Isolated: a thread that waits for the others must not take up another surface meanwhile.
+      const std::size_t pairs =
+          tbb::this_task_arena::isolate([&] { return count_crossings(*outer, *inner); });
+      result.push_back({shells[i - 1], shells[i], pairs});
+    }
     outer = std::move(inner);
     meter.advance();
   };

@@ -24,11 +24,15 @@ using SurfaceOfShell = std::function<TriangleMesh(std::size_t shell)>;
 /// Caps in the volume's border planes are left out: they lie on each other.
 ///
 /// Plain code without CGAL, cheap enough for every build; `mutual_intersections` is its independent
-/// check. Of each surface in the making and of the one last counted it holds 18 bytes a triangle.
+/// check. Of each surface that is waiting or being counted it holds 18 bytes a triangle, and the
+/// surface itself while it is made.
 ///
-/// @param set  its grid and its volume; its surfaces are not looked at
-/// @param shells  those that are not empty, from the outermost inwards
-/// @param at_once  so many surfaces are in the making, waiting or being counted
+/// @param set         its grid and its volume; its surfaces are not looked at
+/// @param shells      those that are not empty, from the outermost inwards
+/// @param surface_of  what it throws ends the count
+/// @param at_once     so many surfaces are in the making, waiting or being counted; 1 at least
+/// @param progress    stage "nesting"
+/// @return            one for each shell but the first
 std::vector<NeighbourCrossings> count_neighbour_crossings(const ShellSet& set,
                                                           std::span<const std::size_t> shells,
                                                           const SurfaceOfShell& surface_of,

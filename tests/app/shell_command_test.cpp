@@ -88,6 +88,7 @@ TEST_F(ShellCommand, SetsAreMadeSmallWhereTheyAreSimplifiedUnlessAsked) {
   // The surfaces are the same.
   EXPECT_EQ(nacre("verify c.glb --volume ball.nii").status, 0);
   expect_refusal("build ball.nii -o c.glb --compression 11", 2, "--compression");
+  expect_refusal("render ball.nii --method shells --compression 3 -o c.png", 2, "--compression");
 }
 
 TEST_F(ShellCommand, InfoListsTheShells) {

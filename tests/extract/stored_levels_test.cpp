@@ -55,6 +55,31 @@ TYPED_TEST(SampleClassesOf, AreTheNumbersOfValuesReached) {
   }
 }
 
+// Few values are counted, many looked up; bricks that keep to one class are not looked at sample by
+// sample.
+TYPED_TEST(SampleClassesOf, OfManyValuesAndOfBricksInOneClass) {
+  using T = TypeParam;
+  std::mt19937 random(3);
+  for (const int count : {1, 19, 20, 21, 30, 60}) {
+    std::vector<double> values;
+    for (int i = 0; i < count; ++i) values.push_back(5.5 + 1.5 * i);
+    const auto levels = stored_levels<T>(values, 1.0, 0.0);
+    const SampleClasses<T> classes(levels);
+    std::vector<T> row(1 + 6 * kBrickCells);
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      const std::size_t brick = i / kBrickCells;
+      const unsigned spread = brick % 2 == 0 ? 2 : 100;  // none or all of the values between
+      row[i] = static_cast<T>(brick * 10 + random() % spread);
+    }
+    std::vector<std::uint8_t> found(row.size());
+    std::vector<ClassRange> bricks(brick_count(row.size()));
+    classes.of_row(row, found.data(), bricks.data());
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      ASSERT_EQ(found[i], counted_class(row[i], values, 1.0, 0.0)) << count << ' ' << i;
+    }
+  }
+}
+
 TYPED_TEST(SampleClassesOf, AreExactBesideAThreshold) {
   using T = TypeParam;
   const std::vector<double> values{10.0};

@@ -81,6 +81,7 @@ TEST(SweptSurfaces, StayInMemoryWhereTheDiskIsFull) {
   for (const rlim_t bytes : {0, 1000, 100'000}) {  // before, between and within slabs
     const FullDisk full(bytes);
     expect_same_as_in_memory(noise(), {.scratch_folder = folder.path()});
+    expect_same_as_in_memory(left_handed_noise(), {.scratch_folder = folder.path()});
   }
 }
 

@@ -81,7 +81,9 @@ TEST(MaxByCells, IsTheWalksMaximumFromAllSides) {
   volume.world_from_voxel[2] = {0.0, -0.2, 1.0, 0.0};
   volume.world_from_voxel[3] = {-30.0, 50.0, 7.0, 1.0};
   for (const EmissionMap& map :
-       {EmissionMap::window(80.0, 89.0), EmissionMap::window(-5.0, 70.0)}) {
+       {EmissionMap::window(80.0, 89.0), EmissionMap::window(-5.0, 70.0),
+        EmissionMap::piecewise_linear({{70.0, 0.2}, {85.0, 0.9}}),
+        EmissionMap::piecewise_linear({{60.0, 0.1}, {80.0, 0.2}, {81.0, 0.7}, {90.0, 0.8}})}) {
     int lit = 0;
     for (const CameraOptions& camera : cameras()) {
       for (const DepthCue& cue : {DepthCue{}, DepthCue{0.8, 0.2, 0.0}, DepthCue{-1.5, 1.5, 0.0}}) {
@@ -198,17 +200,21 @@ TEST(MaxByCells, EveryInstructionSetGivesTheSameBits) {
     GTEST_SKIP() << "this processor has the baseline's instructions only";
   }
   const Volume volume = random_volume<float>({20, 15, 18}, 0.0, 1.0);
-  const ExactWalk walk(volume, EmissionMap::window(0.3, 1.0));
-  for (const CameraOptions& options : cameras()) {
-    const Camera camera = camera_of(volume, options);
-    for (const DepthCue& cue : {DepthCue{}, DepthCue{0.6, 0.4, 0.0}}) {
-      std::vector<std::vector<float>> pixels;
-      for (const InstructionSet set : {InstructionSet::Baseline, InstructionSet::Avx2}) {
-        const MaxByCells scene{&walk.field(), &walk.bright_bricks(), &walk.cued_emission(),
-                               cell_kernel_for(set)};
-        pixels.push_back(max_picture_by_cells(scene, camera, cue, {}, nullptr, {}).volume.pixels);
+  for (const EmissionMap& map :
+       {EmissionMap::window(0.3, 1.0), EmissionMap::piecewise_linear({{0.3, 0.2}, {0.8, 0.9}}),
+        EmissionMap::piecewise_linear({{0.3, 0.0}, {0.5, 0.1}, {0.6, 0.8}, {1.0, 1.0}})}) {
+    const ExactWalk walk(volume, map);
+    for (const CameraOptions& options : cameras()) {
+      const Camera camera = camera_of(volume, options);
+      for (const DepthCue& cue : {DepthCue{}, DepthCue{0.6, 0.4, 0.0}, DepthCue{-1.5, 1.5, 0.0}}) {
+        std::vector<std::vector<float>> pixels;
+        for (const InstructionSet set : {InstructionSet::Baseline, InstructionSet::Avx2}) {
+          const MaxByCells scene{&walk.field(), &walk.bright_bricks(), &walk.cued_emission(),
+                                 cell_kernel_for(set)};
+          pixels.push_back(max_picture_by_cells(scene, camera, cue, {}, nullptr, {}).volume.pixels);
+        }
+        EXPECT_EQ(pixels[0], pixels[1]);
       }
-      EXPECT_EQ(pixels[0], pixels[1]);
     }
   }
 }

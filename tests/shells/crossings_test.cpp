@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <numeric>
+#include <vector>
+
+#include "core/error.h"
 #include "core/quantization_grid.h"
 #include "shells/border_planes.h"
 #include "shells/build.h"
@@ -78,6 +82,40 @@ TEST(Crossings, NestedAndTouchingSurfacesHaveNone) {
   EXPECT_EQ(found[0].outer, 0u);
   EXPECT_EQ(found[0].inner, 2u);
   EXPECT_EQ(found[0].pairs, 0u);
+}
+
+TEST(Crossings, AreTheSameForAnyNumberOfSurfacesAtOnce) {
+  BuildOptions options;
+  options.levels = uniform_levels(9);
+  const ShellSet set = build_shells(random_volume<std::uint8_t>({12, 11, 10}, 0, 255, 4),
+                                    EmissionMap::window(0, 255), options)
+                           .set;
+  std::vector<std::size_t> shells(set.shells.size());
+  std::iota(shells.begin(), shells.end(), std::size_t{0});
+  const auto pairs = [&](std::size_t at_once) {
+    std::vector<std::size_t> found;
+    const auto surface_of = [&](std::size_t k) { return set.shells[k].surface; };
+    for (const auto& c : count_neighbour_crossings(set, shells, surface_of, at_once)) {
+      found.insert(found.end(), {c.outer, c.inner, c.pairs});
+    }
+    return found;
+  };
+  const auto expected = pairs(1);
+  ASSERT_EQ(expected.size(), 3 * 8u);
+  for (const std::size_t at_once : {0, 2, 20}) EXPECT_EQ(pairs(at_once), expected);
+}
+
+TEST(Crossings, ASurfaceThatCannotBeMadeEndsTheCount) {
+  const ShellSet set =
+      on_a_grid({cube_surface(1.0F), cube_surface(0.9F), cube_surface(0.8F), cube_surface(0.7F)});
+  const std::vector<std::size_t> shells{0, 1, 2, 3};
+  for (const std::size_t bad : shells) {
+    const auto surface_of = [&](std::size_t k) {
+      if (k == bad) throw Error(ErrorCode::BadFile, "damaged");
+      return set.shells[k].surface;
+    };
+    EXPECT_THROW(count_neighbour_crossings(set, shells, surface_of, 3), Error);
+  }
 }
 
 // Noise has sheets everywhere, and is capped on all sides.
