@@ -225,35 +225,35 @@ std::vector<NeighbourCrossings> count_neighbour_crossings(const ShellSet& set,
                                                           const SurfaceOfShell& surface_of,
                                                           std::size_t at_once,
                                                           const ProgressCallback& progress) {
-  using Surface = std::shared_ptr<const GridSurface>;
   ProgressMeter meter(progress, "nesting", shells.size());
   std::vector<NeighbourCrossings> result;
+  // Only numbers go through the pipeline, which does not free what it holds when a stage throws.
+  std::vector<std::unique_ptr<const GridSurface>> surfaces(shells.size());
   std::size_t next = 0;
   const auto number = [&](tbb::flow_control& control) {
     if (next == shells.size()) control.stop();
     return next == shells.size() ? next : next++;
   };
   const auto make = [&](std::size_t i) {
-    return std::make_shared<const GridSurface>(surface_of(shells[i]), set);
+    surfaces[i] = std::make_unique<const GridSurface>(surface_of(shells[i]), set);
+    return i;
   };
-  Surface outer;
-  std::size_t counted = 0;
-  const auto count = [&](Surface inner) {
-    const std::size_t i = counted++;
-    if (outer) {
+  const auto count = [&](std::size_t i) {
+    if (i > 0) {
       // Isolated: a thread that waits for the others must not take up another surface meanwhile.
-      const std::size_t pairs =
-          tbb::this_task_arena::isolate([&] { return count_crossings(*outer, *inner); });
+      const std::size_t pairs = tbb::this_task_arena::isolate(
+          [&] { return count_crossings(*surfaces[i - 1], *surfaces[i]); });
       result.push_back({shells[i - 1], shells[i], pairs});
+      surfaces[i - 1].reset();
     }
-    outer = std::move(inner);
     meter.advance();
   };
   using tbb::filter_mode;
-  tbb::parallel_pipeline(std::max<std::size_t>(at_once, 1),
-                         tbb::make_filter<void, std::size_t>(filter_mode::serial_in_order, number) &
-                             tbb::make_filter<std::size_t, Surface>(filter_mode::parallel, make) &
-                             tbb::make_filter<Surface, void>(filter_mode::serial_in_order, count));
+  tbb::parallel_pipeline(
+      std::max<std::size_t>(at_once, 1),
+      tbb::make_filter<void, std::size_t>(filter_mode::serial_in_order, number) &
+          tbb::make_filter<std::size_t, std::size_t>(filter_mode::parallel, make) &
+          tbb::make_filter<std::size_t, void>(filter_mode::serial_in_order, count));
   return result;
 }
 
