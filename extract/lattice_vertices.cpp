@@ -67,8 +67,7 @@ void LatticeVertices<T>::add_edge(const Edge& edge, VertexIds& ids, std::uint32_
   for (std::size_t k = lo; k < hi; ++k) {
     const double t = std::clamp(crossing<T>(crossings[k], a, b), margin, 1.0 - margin);
     *added++ = levels[k].new_vertex();
-    *levels[k].positions.room(output.arena) = glm::vec3(start_mm + step_mm * t);
-    levels[k].positions.commit(1);
+    levels[k].positions.push(glm::vec3(start_mm + step_mm * t), output.arena);
   }
 }
 

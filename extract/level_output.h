@@ -25,6 +25,11 @@ class ChunkedStream {
   }
   void commit(std::size_t count) { cursor_ += count; }
 
+  void push(const Element& element, ChunkArena& arena) {
+    *room(arena) = element;
+    commit(1);
+  }
+
   std::size_t size() const {
     auto sum = static_cast<std::size_t>(cursor_ - begin_);
     for (const std::span<Element> chunk : full_) sum += chunk.size();
@@ -94,13 +99,11 @@ struct SlabOutput {
   }
 
   void write_position(std::size_t k, const glm::dvec3& position_mm) {
-    *levels[k].positions.room(arena) = glm::vec3(position_mm);
-    levels[k].positions.commit(1);
+    levels[k].positions.push(glm::vec3(position_mm), arena);
   }
 
   void write_triangle(std::size_t k, const glm::uvec3& triangle) {
-    *levels[k].triangles.room(arena) = triangle;
-    levels[k].triangles.commit(1);
+    levels[k].triangles.push(triangle, arena);
   }
 
   std::vector<LevelOutput> levels;

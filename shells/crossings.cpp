@@ -232,7 +232,7 @@ std::vector<NeighbourCrossings> count_neighbour_crossings(const ShellSet& set,
   std::size_t next = 0;
   const auto number = [&](tbb::flow_control& control) {
     if (next == shells.size()) control.stop();
-    return next == shells.size() ? next : next++;
+    return next++;
   };
   const auto make = [&](std::size_t i) {
     surfaces[i] = std::make_unique<const GridSurface>(surface_of(shells[i]), set);
