@@ -17,14 +17,18 @@ ordered_json parsed(const std::string& text) {
   return text.empty() ? ordered_json() : ordered_json::parse(text);
 }
 
-std::string stated_error(const DrawnCopies& drawn, PictureMode mode) {
+const std::string& error_of(const DrawnCopies& drawn, PictureMode mode, bool smooth) {
+  if (mode == PictureMode::Sum) return drawn.sum_error_json;
+  return smooth ? drawn.max_smooth_error_json : drawn.max_error_json;
+}
+
+std::string stated_error(const DrawnCopies& drawn, PictureMode mode, bool smooth) {
   if (mode != PictureMode::Max && mode != PictureMode::Sum) {
     return "error of such pictures: not measured";
   }
-  const bool is_sum = mode == PictureMode::Sum;
-  return fmt::format("error of {}: {}", is_sum ? "sums" : "maxima",
-                     error_words(parsed(is_sum ? drawn.sum_error_json : drawn.max_error_json))
-                         .value_or("not stated by the file"));
+  return fmt::format(
+      "error of {}: {}", mode == PictureMode::Sum ? "sums" : "maxima",
+      error_words(parsed(error_of(drawn, mode, smooth))).value_or("not stated by the file"));
 }
 
 }  // namespace
@@ -47,21 +51,24 @@ DrawnCopies take_copies(const std::string& path, ShellFileInfo& info) {
   }
   drawn.tolerance = info.coarse->tolerance;
   drawn.max_error_json = info.coarse->max_error_json;
+  drawn.max_smooth_error_json = info.coarse->max_smooth_error_json;
   drawn.sum_error_json = info.coarse->sum_error_json;
   return drawn;
 }
 
-void say_copies(const DrawnCopies& drawn, PictureMode mode, Reporter& reporter) {
+void say_copies(const DrawnCopies& drawn, PictureMode mode, bool smooth, Reporter& reporter) {
   reporter.say(fmt::format(
       "draws    coarse copies of {} shells (emission error {:.4g}), and {} shells that have none; "
       "{}",
-      drawn.copies, drawn.tolerance, drawn.shells, stated_error(drawn, mode)));
+      drawn.copies, drawn.tolerance, drawn.shells, stated_error(drawn, mode, smooth)));
 }
 
-ordered_json copies_json(const DrawnCopies& drawn, PictureMode mode) {
+ordered_json copies_json(const DrawnCopies& drawn, PictureMode mode, bool smooth) {
   ordered_json json = {
       {"copies", drawn.copies}, {"shells", drawn.shells}, {"tolerance", drawn.tolerance}};
-  if (mode == PictureMode::Max) json["max"] = parsed(drawn.max_error_json);
+  if (mode == PictureMode::Max) {
+    json[smooth ? "max_smooth" : "max"] = parsed(error_of(drawn, mode, smooth));
+  }
   if (mode == PictureMode::Sum) json["sum"] = parsed(drawn.sum_error_json);
   return json;
 }

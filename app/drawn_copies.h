@@ -14,7 +14,8 @@ struct DrawnCopies {
   std::size_t shells = 0;      ///< not empty, drawn themselves: they have no copy
   double tolerance = 0.0;      ///< emission error that the copies' simplification was allowed
   std::string max_error_json;  ///< of maxima of the copies; empty if the file does not state it
-  std::string sum_error_json;  ///< of their sums, likewise
+  std::string max_smooth_error_json;  ///< of maxima estimated between the levels, likewise
+  std::string sum_error_json;         ///< of their sums, likewise
 };
 
 /// Puts the copies' figures in place of those of their shells.
@@ -22,10 +23,11 @@ struct DrawnCopies {
 DrawnCopies take_copies(const std::string& path, ShellFileInfo& info);
 
 /// Says what is drawn, and the error that the file states of such pictures: a part of --explain.
-void say_copies(const DrawnCopies& drawn, PictureMode mode, Reporter& reporter);
+/// @param smooth  whether maxima are estimated between the levels
+void say_copies(const DrawnCopies& drawn, PictureMode mode, bool smooth, Reporter& reporter);
 
-/// The same for --json: the error of maxima as `max`, of sums as `sum`, null where the file does
-/// not state it; neither in other modes, of which nothing is measured.
-nlohmann::ordered_json copies_json(const DrawnCopies& drawn, PictureMode mode);
+/// The same for --json: the error of maxima as `max` or `max_smooth`, of sums as `sum`, null where
+/// the file does not state it; none in other modes, of which nothing is measured.
+nlohmann::ordered_json copies_json(const DrawnCopies& drawn, PictureMode mode, bool smooth);
 
 }  // namespace nacre

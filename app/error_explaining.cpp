@@ -23,7 +23,7 @@ Volume read_volume_for(const ExplainFlags& flags, Reporter& reporter) {
                             : read_emission_volume(volume, reporter).volume;
 }
 
-/// The picture that `nacre render` makes.
+/// The picture that `nacre render --layers flat` makes.
 Image draw(const ExplainFlags& flags, const ShellSet& set, std::span<const Tool> tools,
            const Camera& camera, const RenderOptions& options, Reporter& reporter) {
   const SceneFacts facts = scene_facts(set, tools);
@@ -51,7 +51,8 @@ ExplainedError explain_error(const ExplainFlags& flags, std::optional<Image> pic
                              Reporter& reporter) {
   const std::vector<Tool> tools = read_tools(flags.scene.scene);
   const ShellFileInfo info = read_shell_file_info(flags.set);
-  const RenderOptions options = render_options(flags.scene, flags.draw, info.set.shells.size());
+  RenderOptions options = render_options(flags.scene, flags.draw, info.set.shells.size());
+  options.smooth_layers = false;  // what levels cost is one of the causes
   const Camera camera =
       make_camera(camera_options(flags.scene.camera),
                   bounding_sphere(info.set.volume.dims, info.set.volume.world_from_voxel));

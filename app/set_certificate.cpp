@@ -32,10 +32,15 @@ ordered_json error_json(const CertifiedError& error) {
           {"max_error", rounded(error.max_error)}, {"peak", rounded(error.peak)}};
 }
 
+ordered_json decibels_json(const CertifiedError& error) {
+  return {{"psnr_db", rounded(error.psnr_db)}, {"psnr_lit_db", rounded(error.psnr_lit_db)}};
+}
+
 ordered_json certificate_json(const Certificate& certificate) {
   ordered_json json;
   json["size"] = {certificate.size.x, certificate.size.y};
   json["max"] = error_json(certificate.max);
+  json["max_smooth"] = error_json(certificate.max_smooth);
   json["sum"] = error_json(certificate.sum);
   json["surfaces"] = {{"max_error", rounded(certificate.max_emission_error)},
                       {"rms_error", rounded(certificate.rms_emission_error)},
@@ -46,6 +51,7 @@ ordered_json certificate_json(const Certificate& certificate) {
                              {"azimuth_deg", view.view.azimuth_deg},
                              {"elevation_deg", view.view.elevation_deg},
                              {"max", error_json(view.max)},
+                             {"max_smooth", decibels_json(view.max_smooth)},
                              {"sum", error_json(view.sum)}});
   }
   return json;
@@ -75,7 +81,9 @@ ordered_json coarse_error(const CompressedSet& built, const ProgressCallback& ca
     json["size"] = {measured.size.x, measured.size.y};
     return json;
   };
-  return {{"max", sized(measured.max)}, {"sum", sized(measured.sum)}};
+  return {{"max", sized(measured.max)},
+          {"max_smooth", sized(measured.max_smooth)},
+          {"sum", sized(measured.sum)}};
 }
 
 }  // namespace
@@ -110,11 +118,12 @@ std::string longest_certificate(const glm::ivec2& size) {
   certificate.size = size;
   certificate.max = kMax;
   certificate.sum = kSum;
+  certificate.max_smooth = kMax;
   certificate.max_emission_error = kLong;
   certificate.rms_emission_error = kLong;
   certificate.emission_error_bound = kLong;
   for (const CertificateView& view : certificate_views()) {
-    certificate.views.push_back({view, kMax, kSum});
+    certificate.views.push_back({view, kMax, kSum, kMax});
   }
   return certificate_json(certificate).dump();
 }

@@ -78,6 +78,13 @@ Value value_of(std::string_view flag, const std::optional<Value>& value, std::st
               fmt::format("{}: found '{}', expected {}", flag, found, expected));
 }
 
+bool smooth_layers(const DrawFlags& draw) {
+  if (draw.layers == "smooth") return true;
+  if (draw.layers == "flat") return false;
+  throw Error(ErrorCode::BadArgument,
+              fmt::format("--layers: found '{}', expected smooth or flat", draw.layers));
+}
+
 Views views_of(const ExactFlags& flags, const DrawFlags& draw, const VolumeFacts& volume,
                std::size_t shells) {
   Views views;
@@ -121,7 +128,7 @@ ordered_json figures_of(const ShellRenderer& renderer, const ExactFlags& flags, 
   json["picture"] = {{"width", image.width}, {"height", image.height}};
   if (result.window) json["display"] = {result.window->lo, result.window->hi};
   if (views.copies) {
-    json["coarse"] = copies_json(*views.copies, picture_mode(flags.picture));
+    json["coarse"] = copies_json(*views.copies, picture_mode(flags.picture), !plan.layers.empty());
   }
   json["passes"] = ordered_json::array();
   for (const Pass& pass : plan.passes) json["passes"].push_back(describe(pass));
@@ -129,6 +136,7 @@ ordered_json figures_of(const ShellRenderer& renderer, const ExactFlags& flags, 
   for (const LeftOut& left : plan.left_out) {
     json["left_out"].push_back({{"what", left.what}, {"why", left.why}});
   }
+  json["smooth_layers"] = !plan.layers.empty();
   json["warnings"] = plan.warnings;
   json["triangles_drawn"] = renderer.last_frame().triangles;
   json["uploaded_bytes"] = renderer.uploaded_bytes();
@@ -155,7 +163,7 @@ void draw_views(ShellRenderer& renderer, const ExactFlags& flags, const DrawFlag
                 const Views& views, const std::vector<Plan>& plans, Timing timing,
                 Reporter& reporter) {
   if (draw.explain && views.copies) {
-    say_copies(*views.copies, picture_mode(flags.picture), reporter);
+    say_copies(*views.copies, picture_mode(flags.picture), !plans.front().layers.empty(), reporter);
   }
   if (draw.explain) say_plan(plans.front(), reporter);
   warn_of_limits(plans, reporter);
@@ -190,7 +198,8 @@ SceneFacts facts_of(const ShellFileInfo& info, std::span<const Tool> tools) {
     facts.shells.push_back({info.set.shells[i].representative,
                             level.triangles,
                             {glm::dvec3(level.lo_mm), glm::dvec3(level.hi_mm)},
-                            info.set.shells[i].sum_representative});
+                            info.set.shells[i].sum_representative,
+                            info.set.shells[i].emission});
   }
   for (const Tool& tool : tools) facts.tools.push_back(tool_facts(tool, facts.center_mm));
   return facts;
@@ -215,6 +224,11 @@ void add_draw_flags(CLI::App& verb, DrawFlags& flags) {
                   "texture, always exact and seldom the slower")
       ->capture_default_str()
       ->group(group);
+  verb.add_option("--layers", flags.layers,
+                  "Between the levels a maximum without a cue is estimated from the pixels around "
+                  "(smooth), or each layer shows one brightness (flat)")
+      ->capture_default_str()
+      ->group(group);
   verb.add_option("--detail", flags.detail_px,
                   "PX: the cpu backend may move surfaces by this many pixels to draw fewer "
                   "triangles (0: none)")
@@ -233,6 +247,7 @@ void add_draw_flags(CLI::App& verb, DrawFlags& flags) {
 
 RenderOptions render_options(const ExactFlags& flags, const DrawFlags& draw, std::size_t shells) {
   RenderOptions options;
+  options.smooth_layers = smooth_layers(draw);
   options.mode = picture_mode(flags.picture);
   options.slab = slab(flags.camera);
   options.cue = depth_cue(flags.scene);
@@ -248,6 +263,10 @@ RenderOptions render_options(const ExactFlags& flags, const DrawFlags& draw, std
 void say_plan(const Plan& plan, Reporter& reporter) {
   for (const Pass& pass : plan.passes) reporter.say("draws    " + describe(pass));
   if (plan.passes.empty()) reporter.say("draws    nothing: the picture is black");
+  if (!plan.layers.empty()) {
+    reporter.say(fmt::format("smooth   {} layers: the maximum is estimated between their levels",
+                             plan.layers.size()));
+  }
   for (const LeftOut& left : plan.left_out) {
     reporter.say(fmt::format("left out {}: {}", left.what, left.why));
   }

@@ -13,6 +13,7 @@ namespace nacre {
 /// How shells are drawn, as flags say it.
 struct DrawFlags {
   std::string backend = "auto";
+  std::string layers = "smooth";
   std::string depth_buffer = "32f";
   std::string target = "32f";
   std::string occlusion = "auto";
@@ -23,7 +24,7 @@ struct DrawFlags {
   bool coarse = false;  ///< the coarse copies of the shells, where the file has them
 };
 
-/// Adds --backend, --depth-buffer, --target, --occlusion, --hide, --only, --detail and
+/// Adds --backend, --layers, --depth-buffer, --target, --occlusion, --hide, --only, --detail and
 /// --explain.
 void add_draw_flags(CLI::App& verb, DrawFlags& flags);
 

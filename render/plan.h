@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/camera.h"
+#include "core/dequantization.h"
 #include "render/projection.h"
 #include "render/ray_frame.h"
 #include "render/render_options.h"
@@ -96,6 +97,8 @@ struct Plan {
   /// The emission that a rank stands for, [0] = 0 for black: a depth d read back is rank
   /// round(d * (size - 1)).
   std::vector<float> emission_of_rank{0.0F};
+  /// Between which a maximum is estimated once it is drawn; empty: it stays as it is.
+  std::vector<LayerRange> layers;
 };
 
 /// Indices of the shells that the plan draws, ascending: what has to be decoded and uploaded.

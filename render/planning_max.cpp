@@ -194,6 +194,22 @@ Pass max_pass(Planning& planning, Trend trend, bool ranked) {
   return pass;
 }
 
+/// Says between which levels the picture is estimated, or why it is not.
+void plan_layers(Planning& planning) {
+  const RenderOptions& options = planning.options;
+  const auto leave_out = [&](std::string_view why) { planning.leave_out("smooth layers", why); };
+  if (!options.smooth_layers) return;
+  if (planning.plan.passes.empty()) return leave_out("the picture is black");
+  if (!is_flat(options.cue)) return leave_out("under a cue a pixel does not tell its layer");
+  if (!options.hidden.empty()) return leave_out("shells are hidden: those shown show alone");
+  std::vector<LayerLevel> levels;
+  for (const ShellFacts& shell : planning.scene.shells) {
+    levels.push_back({shell.emission, shell.representative});
+  }
+  planning.plan.layers = layer_ranges(levels, beta(options.cue, 0.0));
+  if (planning.plan.layers.empty()) leave_out("a representative lies outside its layer");
+}
+
 }  // namespace
 
 void plan_max(Planning& planning) {
@@ -213,6 +229,7 @@ void plan_max(Planning& planning) {
     if (!color) planning.leave_out("colour target", "the depth is the picture");
   }
   if (ranked) planning.leave_out("depth cue", "a = 0: one factor for all depths");
+  plan_layers(planning);
 }
 
 }  // namespace nacre::planning

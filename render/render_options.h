@@ -68,6 +68,9 @@ struct RenderOptions {
   DepthFormat depth = DepthFormat::D32F;
   TargetFormat target = TargetFormat::F32;
   Occlusion occlusion = Occlusion::Auto;
+  /// Whether a maximum is estimated between the levels (`dequantize`), where each layer would show
+  /// its representative alone.
+  bool smooth_layers = false;
   PlanRules rules = {};
 };
 

@@ -22,7 +22,8 @@ SceneFacts scene_facts(const ShellSet& set, std::span<const Tool> tools) {
   facts.shells.reserve(set.shells.size());
   for (const Shell& shell : set.shells) {
     facts.shells.push_back({shell.representative, shell.surface.triangles.size(),
-                            bounds_of(shell.surface.positions), shell.sum_representative});
+                            bounds_of(shell.surface.positions), shell.sum_representative,
+                            shell.emission});
   }
   for (const Tool& tool : tools) facts.tools.push_back(tool_facts(tool, set.center_mm));
   return facts;

@@ -27,6 +27,7 @@ struct ShellFacts {
   Box bounds;                   ///< of the positions, relative to `SceneFacts::center_mm`
   /// The emission that sums add for the layer; none where it is the representative.
   std::optional<double> sum_representative = std::nullopt;
+  double emission = 0.0;  ///< level t_k
 };
 
 /// What planning a picture needs to know of a tool.

@@ -6,6 +6,13 @@
 
 namespace nacre {
 
+void finish_picture(const Plan& plan, Picture& picture, const RowLoop& rows) {
+  if (plan.layers.empty()) return;
+  std::span<const std::uint8_t> fixed;
+  if (picture.tools) fixed = picture.tools->covered;
+  dequantize(picture.volume, plan.layers, fixed, rows);
+}
+
 void check_upload(const ShellSet& set, const SceneFacts& facts,
                   std::span<const std::uint32_t> shells) {
   for (const std::uint32_t shell : shells) {

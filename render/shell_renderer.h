@@ -80,6 +80,10 @@ class ShellRenderer {
   ShellRenderer& operator=(ShellRenderer&&) = default;
 };
 
+/// What is done to a picture once it is drawn: a maximum is estimated between its levels, where
+/// that is planned. The background stays black where a tool is seen.
+void finish_picture(const Plan& plan, Picture& picture, const RowLoop& rows = {});
+
 /// Checks what is to be uploaded.
 /// @throws Error  BadArgument for a shell that does not exist or has no such number of triangles
 void check_upload(const ShellSet& set, const SceneFacts& facts,

@@ -107,13 +107,13 @@ class Certifier::Pictures {
     }
   }
 
-  PixelSums max() const {
-    PixelSums sums;
-    for (std::size_t i = 0; i < exact_max_.pixels.size(); ++i) {
-      sums.add(static_cast<double>(shown_max_.pixels[i]),
-               static_cast<double>(exact_max_.pixels[i]));
-    }
-    return sums;
+  PixelSums max() const { return beside_exact(shown_max_); }
+
+  /// Between these layers; flat where there are none.
+  PixelSums max_smooth(std::span<const LayerRange> layers) const {
+    Image smooth = shown_max_;
+    dequantize(smooth, layers);
+    return beside_exact(smooth);
   }
 
   PixelSums sum() const {
@@ -125,6 +125,14 @@ class Certifier::Pictures {
   }
 
  private:
+  PixelSums beside_exact(const Image& shown_max) const {
+    PixelSums sums;
+    for (std::size_t i = 0; i < exact_max_.pixels.size(); ++i) {
+      sums.add(static_cast<double>(shown_max.pixels[i]), static_cast<double>(exact_max_.pixels[i]));
+    }
+    return sums;
+  }
+
   Camera camera_;
   Image exact_max_;
   Image exact_sum_;
@@ -185,6 +193,7 @@ void Certifier::add(const ShellSet& set, std::vector<Shell>&& shells) {
     for (const Shell& shell : shells) emissions_->add(shell, emission_, grid_step_mm);
   }
   if (shells.empty()) return;
+  for (const Shell& shell : shells) levels_.push_back({shell.emission, shell.representative});
   ShellSet part;
   part.center_mm = set.center_mm;
   part.shells = std::move(shells);
@@ -201,6 +210,7 @@ void Certifier::restart() {
   for (Pictures& pictures : pictures_) pictures.restart();
   emissions_ = std::make_unique<Emissions>(volume_);
   summed_below_ = 0.0;
+  levels_.clear();
 }
 
 Certificate Certifier::result() const {
@@ -208,15 +218,21 @@ Certificate Certifier::result() const {
   certificate.size = options_.size;
   PixelSums all_max;
   PixelSums all_sum;
+  PixelSums all_smooth;
+  const std::vector<LayerRange> layers = layer_ranges(levels_);
   for (std::size_t i = 0; i < pictures_.size(); ++i) {
     const PixelSums max = pictures_[i].max();
     const PixelSums sum = pictures_[i].sum();
     all_max.add(max);
     all_sum.add(sum);
-    certificate.views.push_back({options_.views[i], max.error_of_max(), sum.error_of_sum()});
+    const PixelSums smooth = pictures_[i].max_smooth(layers);
+    all_smooth.add(smooth);
+    certificate.views.push_back(
+        {options_.views[i], max.error_of_max(), sum.error_of_sum(), smooth.error_of_max()});
   }
   certificate.max = all_max.error_of_max();
   certificate.sum = all_sum.error_of_sum();
+  certificate.max_smooth = all_smooth.error_of_max();
   certificate.max_emission_error = emissions_->max_error;
   certificate.emission_error_bound = emissions_->bound;
   if (emissions_->area_mm2 > 0.0) {

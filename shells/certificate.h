@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/camera.h"
+#include "core/dequantization.h"
 #include "core/emission.h"
 #include "core/progress.h"
 #include "core/shell_set.h"
@@ -46,6 +47,7 @@ struct CertifiedView {
   CertificateView view;
   CertifiedError max;
   CertifiedError sum;
+  CertifiedError max_smooth;
 };
 
 /// What a shell set's pictures and surfaces are worth.
@@ -54,6 +56,8 @@ struct Certificate {
   std::vector<CertifiedView> views;
   CertifiedError max;  ///< over all views' pixels
   CertifiedError sum;
+  /// Of maxima that are estimated between the levels, as the command shows them (`dequantize`).
+  CertifiedError max_smooth;
   /// |phi - t_k| over the surfaces (`SurfaceEmission`): the largest sample, the root mean square
   /// over the area of all shells, and a bound that no point exceeds.
   double max_emission_error = 0.0;
@@ -97,7 +101,8 @@ class Certifier {
   CertificateOptions options_;
   std::vector<Pictures> pictures_;  ///< of each view
   std::unique_ptr<Emissions> emissions_;
-  double summed_below_ = 0.0;  ///< what sums show for the last shell's layer
+  double summed_below_ = 0.0;       ///< what sums show for the last shell's layer
+  std::vector<LayerLevel> levels_;  ///< of the shells taken
 };
 
 /// The certificate of a set in memory.

@@ -108,6 +108,9 @@ class CpuRenderer::Drawing {
       scene.shells[shell] = &mesh_for(shell, camera);
     }
     Picture picture = pictures_.draw(camera, plan, scene);
+    finish_picture(plan, picture, [](int count, const std::function<void(int)>& row) {
+      tbb::parallel_for(0, count, row);
+    });
     frame_ = pictures_.stats();
     frame_.seconds = std::chrono::duration<double>(Clock::now() - start).count();
     return picture;

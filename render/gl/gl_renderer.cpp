@@ -83,6 +83,7 @@ class GlRenderer::Drawing {
     const Clock::time_point start = Clock::now();
     Picture picture =
         pictures_.draw(camera, plan, {scene_.center_mm, pointer(shells_), pointer(tools_)});
+    finish_picture(plan, picture);
     frame_ = pictures_.stats();
     frame_.seconds = std::chrono::duration<double>(Clock::now() - start).count();
     return picture;

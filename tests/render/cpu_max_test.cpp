@@ -29,6 +29,20 @@ void expect_exact(const ShellSet& set, const Camera& camera, const RayCheck& che
   expect_matches_rays(set, camera, draw(set, camera), check);
 }
 
+TEST(CpuMax, SmoothLayersAreWhatTheFilterMakesOfFlatOnes) {
+  const Scan scan = small_angiogram();
+  for (const Camera& camera : cameras(scan.sphere, {161, 120})) {
+    for (const Slab& slab : slabs(scan.sphere.radius_mm)) {
+      RenderOptions options{.slab = slab};
+      Image expected = draw(scan.set, camera, options);
+      options.smooth_layers = true;
+      const Image smooth = draw(scan.set, camera, options);
+      dequantize(expected, make_plan(scene_facts(scan.set), camera, options).layers);
+      EXPECT_EQ(smooth.pixels, expected.pixels);
+    }
+  }
+}
+
 TEST(CpuMax, IsWhatRaysShowFromAllSides) {
   const ShellSet set = mixed_set(kCenter);
   for (const double azimuth : {0.0, 35.0, 160.0}) {

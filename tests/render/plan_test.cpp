@@ -47,6 +47,38 @@ TEST(Plan, DrawsRanksBrightestFirst) {
   EXPECT_EQ(describe(plan.passes[0]), "max as depth: 3 shells, 160 triangles");
 }
 
+TEST(Plan, EstimatesBetweenLevelsWhereAPixelTellsItsLayer) {
+  SceneFacts facts = scene();
+  double level = 0.5;
+  for (ShellFacts& shell : facts.shells) shell.emission = level++ / 3.0;
+  const RenderOptions smooth{.smooth_layers = true};
+  EXPECT_TRUE(plan_of(facts).layers.empty());
+  EXPECT_EQ(why(plan_of(facts), "smooth layers"), "");
+  const Plan plan = plan_of(facts, smooth);
+  ASSERT_EQ(plan.layers.size(), 4U);
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(plan.layers[i].shown, plan.emission_of_rank[i]);
+  EXPECT_FLOAT_EQ(plan.layers[2].lo, 0.5F);
+
+  RenderOptions other = smooth;
+  other.cue = {.a = 0.0, .b = 0.7};  // one factor
+  const Plan dimmed = plan_of(facts, other);
+  ASSERT_EQ(dimmed.layers.size(), 4U);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(dimmed.layers[i].shown, dimmed.emission_of_rank[i]);
+  }
+  other.cue = {.a = 0.5, .b = 0.5};
+  EXPECT_NE(why(plan_of(facts, other), "smooth layers").find("cue"), std::string::npos);
+  other = smooth;
+  other.hidden = {1};
+  EXPECT_NE(why(plan_of(facts, other), "smooth layers").find("hidden"), std::string::npos);
+  other = smooth;
+  other.mode = PictureMode::Sum;
+  EXPECT_TRUE(plan_of(facts, other).layers.empty());
+  facts.shells[1].emission = 0.7;  // above what it is shown as
+  EXPECT_NE(why(plan_of(facts, smooth), "smooth layers").find("outside its layer"),
+            std::string::npos);
+}
+
 TEST(Plan, LeavesOutHiddenShells) {
   const Plan plan = plan_of(scene(), {.hidden = {2, 0}});
   EXPECT_EQ(shells_drawn(plan), std::vector<std::uint32_t>{1});

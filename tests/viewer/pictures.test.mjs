@@ -1,4 +1,4 @@
-// The page's pictures against `nacre render` with the same flags: at least 40 dB.
+// The page's pictures against `nacre render --layers flat` with the same flags: at least 40 dB.
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { inFolder, launch, makeAngiogram, nacreAll, open, psnrOfView, settled, toolPose, writeTool } from "./support.mjs";
@@ -72,7 +72,8 @@ before(async () => {
   writeTool();
   const url = makeAngiogram();
   drawn = nacreAll(cases.map(({ hash, size, flags }, k) =>
-    ["render", "angiogram.glb", "--size", size.join("x"), ...flagsOf(hash), ...flags, "-o", `${k}.png`, "-q"]));
+    ["render", "angiogram.glb", "--size", size.join("x"), ...flagsOf(hash), ...flags, "--layers", "flat",
+      "-o", `${k}.png`, "-q"]));
   page = await open(browser, url, { width: 800, height: 300 });
 });
 
