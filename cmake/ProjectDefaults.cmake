@@ -71,9 +71,9 @@ endfunction()
 # nacre_knows_kernels(<name>)
 #
 # Tells a folder's library which kernels are compiled beside those for what every processor has:
-# NACRE_KERNEL_AVX2 (see core/instruction_set.h).
+# NACRE_KERNEL_AVX2 and NACRE_KERNEL_AVX512 (see core/instruction_set.h).
 function(nacre_knows_kernels name)
   if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64" AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    target_compile_definitions(nacre_${name} PRIVATE NACRE_KERNEL_AVX2)
+    target_compile_definitions(nacre_${name} PRIVATE NACRE_KERNEL_AVX2 NACRE_KERNEL_AVX512)
   endif()
 endfunction()

@@ -12,7 +12,7 @@ CellKernel cell_kernel() noexcept;
 
 CellKernel cell_kernel_for([[maybe_unused]] InstructionSet set) noexcept {
 #ifdef NACRE_KERNEL_AVX2
-  if (set == InstructionSet::Avx2) return cells_avx2::cell_kernel();
+  if (set != InstructionSet::Baseline) return cells_avx2::cell_kernel();
 #endif
   return cells_baseline::cell_kernel();
 }

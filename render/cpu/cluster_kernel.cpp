@@ -35,9 +35,16 @@ namespace kernel_avx2 {
 template <class Pixel>
 DrawClusters<Pixel> draw_clusters_of() noexcept;
 }  // namespace kernel_avx2
+namespace kernel_avx512 {
+template <class Pixel>
+DrawClusters<Pixel> draw_clusters_of() noexcept;
+}  // namespace kernel_avx512
 
 template <class Pixel>
 DrawClusters<Pixel> draw_clusters_for([[maybe_unused]] InstructionSet set) noexcept {
+#ifdef NACRE_KERNEL_AVX512
+  if (set == InstructionSet::Avx512) return kernel_avx512::draw_clusters_of<Pixel>();
+#endif
 #ifdef NACRE_KERNEL_AVX2
   if (set == InstructionSet::Avx2) return kernel_avx2::draw_clusters_of<Pixel>();
 #endif

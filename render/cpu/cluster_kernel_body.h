@@ -14,13 +14,6 @@
 namespace nacre::NACRE_KERNEL {
 namespace {
 
-inline Floats gather_floats(const float* values, const std::uint8_t* corners,
-                            const std::uint8_t* list) {
-  Floats gathered;
-  for (int i = 0; i < kLanes; ++i) gathered[i] = values[corners[list[i]]];
-  return gathered;
-}
-
 /// Depths, and how far corners are rounded aside, pixels.
 struct PlaneCorner {
   Floats x, y, depth;
@@ -37,10 +30,17 @@ struct PlaneCorner {
   }
 };
 
-inline PlaneCorner plane_corner(const PixelVertices& vertices, const std::uint8_t* corners,
-                                const std::uint8_t* list) {
-  return {gather_floats(vertices.x, corners, list), gather_floats(vertices.y, corners, list),
-          gather_floats(vertices.depth, corners, list)};
+inline Corners<Floats> depths_at(const PixelVertices& vertices, const CornerArrays& corners,
+                                 int t) {
+  return look_up<Floats>(vertices.depth, vertices.count, corners, t);
+}
+
+inline Corners<PlaneCorner> plane_corners(const PixelVertices& vertices,
+                                          const CornerArrays& corners, int t) {
+  const auto x = look_up<Floats>(vertices.x, vertices.count, corners, t);
+  const auto y = look_up<Floats>(vertices.y, vertices.count, corners, t);
+  const auto depth = depths_at(vertices, corners, t);
+  return {{x.a, y.a, depth.a}, {x.b, y.b, depth.b}, {x.c, y.c, depth.c}};
 }
 
 /// Moves the depths of corners to where these were rounded, along the plane of the triangle: a
@@ -64,41 +64,30 @@ inline void stay_on_plane(PlaneCorner& a, PlaneCorner& b, PlaneCorner& c, bool p
 /// @param swap  lanes whose second and third corners were exchanged
 template <bool kDepth, bool kExact>
 CornerDepths<kDepth> corner_depths(bool perspective, const PixelVertices& vertices,
-                                   const CornerArrays& corners, const std::uint8_t* list,
-                                   const Ints& swap) {
+                                   const CornerArrays& corners, int i, const Ints& swap) {
   if constexpr (kExact) {
-    PlaneCorner a = plane_corner(vertices, corners.first, list);
-    PlaneCorner b = plane_corner(vertices, corners.second, list);
-    PlaneCorner c = plane_corner(vertices, corners.third, list);
+    auto [a, b, c] = plane_corners(vertices, corners, i);
     stay_on_plane(a, b, c, perspective);
     return {{swap ? b.depth : c.depth, a.depth, swap ? c.depth : b.depth}, perspective};
   } else if constexpr (kDepth) {
-    const Floats a = gather_floats(vertices.depth, corners.first, list);
-    const Floats b = gather_floats(vertices.depth, corners.second, list);
-    const Floats c = gather_floats(vertices.depth, corners.third, list);
+    const auto [a, b, c] = depths_at(vertices, corners, i);
     return {{swap ? b : c, a, swap ? c : b}, perspective};
   } else {
     return {};
   }
 }
 
-inline Ints listed_numbers(const std::uint8_t* list) {
-  Ints numbers;
-  for (int i = 0; i < kLanes; ++i) numbers[i] = list[i];
-  return numbers;
-}
-
 /// @param swap  front faces, where both faces are drawn
 template <class Pixel>
 Source<Pixel> source_of(const ClusterDraw<Pixel>& draw, const ClusterProjection& projection,
-                        const Cluster& cluster, const std::uint8_t* list, const Ints& swap) {
+                        const Cluster& cluster, const std::int32_t* numbers, const Ints& swap) {
   if constexpr (kCounts<Pixel>) {
     return {1 + 2 * swap};
   } else if constexpr (kSums<Pixel>) {
     return {draw.brightness, projection.start_mm, draw.brightness.is_signed ? swap : Ints{}};
   } else if constexpr (sizeof(Pixel) == sizeof(std::uint64_t)) {
     const std::uint32_t first = draw.brightness.first_triangle + cluster.first_corner / 3;
-    return {projection.start_mm, ~(listed_numbers(list) + static_cast<std::int32_t>(first))};
+    return {projection.start_mm, ~(load<Ints>(numbers) + static_cast<std::int32_t>(first))};
   } else if constexpr (kDeep<Pixel>) {
     return {projection.z_of_depth, draw.brightness};
   } else {
@@ -138,19 +127,18 @@ void draw_triangles(const Kernel<Pixel>& kernel, const ClusterDraw<Pixel>& draw,
   const std::ptrdiff_t second = draw.faces == Faces::Front ? 2 * count_wide : count_wide;
   const CornerArrays corners{first, first + second, first + 3 * count_wide - second};
   const bool both_faces = draw.faces == Faces::Both;
-  // NOLINTNEXTLINE(modernize-avoid-c-arrays)
-  alignas(64) std::uint8_t list[kClusterTriangles + kLanePadding + kLanes];
   const auto raised = raised_by(draw, origin, kernel.target.width);
-  const int listed = list_candidates(vertices, corners, count, both_faces, clip, raised, list);
-  for (int i = 0; i < listed; i += kLanes) {
-    Triangles triangles = gather_listed(vertices.xy, corners, list + i);
+  Candidates listed;
+  list_candidates(vertices, corners, count, both_faces, clip, raised, listed);
+  const CornerArrays left{listed.corners[0], listed.corners[1], listed.corners[2]};
+  for (int i = 0; i < listed.count; i += kLanes) {
+    Triangles triangles = gather(vertices, left, i);
     const Ints swap = orient(triangles, both_faces).swapped;
     constexpr bool kDepth = kCut || kDeep<Pixel>;
-    const Shade<Pixel, kCut> shade{corner_depths<kDepth, kOnPlane<Pixel>>(
-                                       projection.perspective, vertices, corners, list + i, swap),
-                                   source_of(draw, projection, cluster, list + i, swap),
-                                   projection.start_mm};
-    cover(triangles, listed - i, clip, origin, kernel.target.width, shade);
+    const Shade<Pixel, kCut> shade{
+        corner_depths<kDepth, kOnPlane<Pixel>>(projection.perspective, vertices, left, i, swap),
+        source_of(draw, projection, cluster, listed.numbers + i, swap), projection.start_mm};
+    cover(triangles, listed.count - i, clip, origin, kernel.target.width, shade);
   }
 }
 
@@ -166,10 +154,31 @@ bool draw_cluster(const Kernel<Pixel>& kernel, const ClusterDraw<Pixel>& draw,
 }
 
 template <class Pixel>
-bool cannot_show(const Kernel<Pixel>& kernel, Faces faces, const Cluster& cluster) {
-  return outside(kernel, cluster) ||
-         (faces == Faces::Front && turned_away(kernel, cluster, 1.0F)) ||
-         (faces == Faces::Back && turned_away(kernel, cluster, -1.0F));
+bool may_show(const Kernel<Pixel>& kernel, const ClusterDraw<Pixel>& draw, const Cluster& cluster) {
+  return !outside(kernel, cluster) &&
+         !(draw.faces == Faces::Front && turned_away(kernel, cluster, 1.0F)) &&
+         !(draw.faces == Faces::Back && turned_away(kernel, cluster, -1.0F)) &&
+         near_plane(kernel, cluster) != Reach::Behind &&
+         part_of(kernel, draw, cluster) != Part::None;
+}
+
+/// Asks for the memory of a cluster that is drawn next. Inlined first of all: the compiler takes a
+/// function that does no more than this for one without effect, and leaves its calls out.
+template <class Pixel>
+[[gnu::always_inline]] inline void fetch(const ClusterDraw<Pixel>& draw, const Cluster& cluster) {
+  constexpr int kLine = 64;
+  const float* positions = draw.positions + cluster.first_position;
+  for (int i = 0; i < 3 * cluster.vertices; i += kLine / 4) __builtin_prefetch(positions + i);
+  const std::uint8_t* corners = draw.corners + cluster.first_corner;
+  for (int i = 0; i < 3 * cluster.triangles; i += kLine) __builtin_prefetch(corners + i);
+}
+
+/// The first cluster from `i` on that may show, which is drawn soon.
+template <class Pixel>
+std::size_t next_shown(const Kernel<Pixel>& kernel, const ClusterDraw<Pixel>& draw, std::size_t i) {
+  while (i < draw.count && !may_show(kernel, draw, draw.clusters[i])) ++i;
+  if (i < draw.count) fetch(draw, draw.clusters[i]);
+  return i;
 }
 
 template <class Pixel>
@@ -178,18 +187,17 @@ KernelResult draw_clusters(const ClusterDraw<Pixel>& draw, const ClusterProjecti
   const Kernel<Pixel> kernel = make_kernel(projection, target);
   KernelResult result;
   PixelVertices vertices;
-  for (std::size_t i = 0; i < draw.count; ++i) {
+  std::size_t next = next_shown(kernel, draw, 0);
+  while (next < draw.count) {
+    const std::size_t i = next;
+    next = next_shown(kernel, draw, i + 1);
     const Cluster& cluster = draw.clusters[i];
-    if (cannot_show(kernel, draw.faces, cluster)) continue;
-    const Reach reach = near_plane(kernel, cluster);
-    if (reach == Reach::Behind) continue;
-    const Part part = part_of(kernel, draw, cluster);
-    if (part == Part::None) continue;
     result.triangles += cluster.triangles;
     bool drawn = false;
-    if (reach == Reach::Beyond) {
-      drawn = part == Part::All ? draw_cluster<kCounts<Pixel>>(kernel, draw, cluster, vertices)
-                                : draw_cluster<true>(kernel, draw, cluster, vertices);
+    if (near_plane(kernel, cluster) == Reach::Beyond) {
+      drawn = part_of(kernel, draw, cluster) == Part::All
+                  ? draw_cluster<kCounts<Pixel>>(kernel, draw, cluster, vertices)
+                  : draw_cluster<true>(kernel, draw, cluster, vertices);
     }
     if (!drawn) too_large[result.too_large++] = static_cast<std::uint32_t>(i);
   }

@@ -44,6 +44,11 @@ double most_pixels_per_mm(const Camera& camera, const glm::dvec3& center_mm, con
   return pixels / std::max(nearest, near_plane_mm(camera)) * (1.0 + camera.half_extent);
 }
 
+std::string_view name(InstructionSet set) {
+  if (set == InstructionSet::Avx512) return "AVX-512";
+  return set == InstructionSet::Avx2 ? "AVX2" : "baseline";
+}
+
 /// Whether the pass is part of what this renderer draws.
 bool draws(const Pass& pass) {
   return pass.kind == PassKind::ToolLayer || pass.kind == PassKind::MaxDepth ||
@@ -179,8 +184,7 @@ CpuRenderer& CpuRenderer::operator=(CpuRenderer&&) noexcept = default;
 std::string_view CpuRenderer::backend_name() const noexcept { return "cpu"; }
 
 std::string CpuRenderer::device_name() const {
-  return fmt::format("{} instructions, {} threads",
-                     drawing_->options().instructions == InstructionSet::Avx2 ? "AVX2" : "baseline",
+  return fmt::format("{} instructions, {} threads", name(drawing_->options().instructions),
                      tbb::this_task_arena::max_concurrency());
 }
 

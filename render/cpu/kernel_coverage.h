@@ -229,13 +229,6 @@ void cover_small(Edges edges, const Ints& columns, const Ints& rows, const std::
   }
 }
 
-/// 0, 1, 2, ...
-inline Ints lane_numbers() {
-  Ints numbers;
-  for (int i = 0; i < kLanes; ++i) numbers[i] = i;
-  return numbers;
-}
-
 /// One lane's edges in all lanes, each a pixel further to the right.
 inline Edges side_by_side(const Edges& edges, int lane) {
   Edges all;
@@ -278,12 +271,6 @@ void cover_large(Edges edges, int columns, int rows, const Canvas<Pixel, kCut>& 
   }
 }
 
-inline int greatest_lane(const Ints& v) {
-  int most = v[0];
-  for (int i = 1; i < kLanes; ++i) most = v[i] > most ? v[i] : most;
-  return most;
-}
-
 /// Covers the first `used` of the lanes' triangles, which are oriented.
 template <class Pixel, bool kCut>
 void cover(const Triangles& triangles, int used, const Clip& clip,
@@ -298,9 +285,9 @@ void cover(const Triangles& triangles, int used, const Clip& clip,
   const Ints unused = lane_numbers() >= used;
   const Ints large = ~unused & ((columns >= kSmallSide) | (rows >= kSmallSide));
   const Ints small_columns = columns | unused | large;  // -1: nothing to walk
-  const int most_columns = greatest_lane(small_columns);
+  const int most_columns = greatest_lane<IntQuad>(small_columns);
   if (most_columns >= 0) {
-    const int most_rows = greatest_lane(small_columns < 0 ? small_columns : rows);
+    const int most_rows = greatest_lane<IntQuad>(small_columns < 0 ? small_columns : rows);
     cover_small(edges, small_columns, rows, offsets, most_columns, most_rows, origin, stride,
                 shade);
   }

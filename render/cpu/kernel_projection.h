@@ -146,18 +146,14 @@ struct PixelVertices {
   alignas(64) float depth[256];      // or 1 / depth (perspective); where needed
   alignas(64) std::int32_t xy[256];  // sub-pixels from the origin, x in the lower half
   int origin_x, origin_y;            // a pixel
+  int count;                         // padded
 };
 
 /// Adding 1.5 * 2^23 rounds to the nearest integer and leaves it in the lowest bits.
 constexpr float kRound = 12582912.0F;
 
 inline Extent extent_of(const Floats& lo, const Floats& hi) {
-  Extent extent{lo[0], hi[0]};
-  for (int i = 1; i < kLanes; ++i) {
-    extent.lo = lo[i] < extent.lo ? lo[i] : extent.lo;
-    extent.hi = hi[i] > extent.hi ? hi[i] : extent.hi;
-  }
-  return extent;
+  return {least_lane(lo), greatest_lane<Quad>(hi)};
 }
 
 inline Floats row_at(const glm::vec4& row, const Floats& x, const Floats& y, const Floats& z) {
@@ -168,6 +164,7 @@ inline Floats row_at(const glm::vec4& row, const Floats& x, const Floats& y, con
 template <bool kDepth, class Pixel>
 bool project(const Kernel<Pixel>& kernel, const float* positions, int count, PixelVertices& out) {
   const ClusterProjection& projection = kernel.projection;
+  out.count = count;
   Floats lo_x = Floats{} + 1e30F;
   Floats lo_y = lo_x;
   Floats hi_x = -lo_x;

@@ -19,10 +19,7 @@ Clip clip_of(const Kernel<Pixel>& kernel, const PixelVertices& vertices) {
                bounded(kernel.target.height - 1 - vertices.origin_y))};
 }
 
-/// Corners of as many triangles as there are lanes.
-struct Triangles {
-  Shorts a, b, c;
-};
+using Triangles = Corners<Shorts>;
 
 /// Pixels whose centres may be covered.
 struct Centers {
@@ -57,30 +54,21 @@ inline Areas orient(Triangles& triangles, bool both_faces) {
   return {swap ? -area : area, swap};
 }
 
-/// The corners of a cluster's triangles, in the order in which the faces drawn are clockwise.
-struct CornerArrays {
-  const std::uint8_t* first;
-  const std::uint8_t* second;
-  const std::uint8_t* third;
-};
-
-inline Triangles gather(const std::int32_t* vertices, const CornerArrays& corners, int t) {
-  return {gather(vertices, corners.first + t), gather(vertices, corners.second + t),
-          gather(vertices, corners.third + t)};
-}
-
-inline Triangles gather_listed(const std::int32_t* vertices, const CornerArrays& corners,
-                               const std::uint8_t* list) {
-  Ints a;
-  Ints b;
-  Ints c;
-  for (int i = 0; i < kLanes; ++i) {
-    a[i] = vertices[corners.first[list[i]]];
-    b[i] = vertices[corners.second[list[i]]];
-    c[i] = vertices[corners.third[list[i]]];
-  }
+inline Triangles gather(const PixelVertices& vertices, const CornerArrays& corners, int t) {
+  const auto [a, b, c] = look_up<Ints>(vertices.xy, vertices.count, corners, t);
   return {bits_as<Shorts>(a), bits_as<Shorts>(b), bits_as<Shorts>(c)};
 }
+
+/// Triangles that are left of a cluster's: their numbers, the pixels they may cover, as pairs, and
+/// their corners. All have room for a vector beyond the last.
+struct Candidates {
+  static constexpr int kRoom = kClusterTriangles + kLanePadding + kLanes;
+  alignas(64) std::int32_t numbers[kRoom];
+  alignas(64) std::int32_t first[kRoom];  // where many are looked at together
+  alignas(64) std::int32_t size[kRoom];
+  alignas(64) std::uint8_t corners[3][kRoom];
+  int count = 0;
+};
 
 /// Pixels that some triangles cannot raise: of whole shells' ranks, those that hold a rank as high.
 template <class Pixel, bool kCut>
@@ -130,41 +118,116 @@ struct RaisedPixels<std::uint8_t, false> {
     return 1;
   }
 
+  /// The same for lanes of up to four by four pixels, a bit each. Others take no step down.
+  unsigned hold(const Shorts& first, const Ints& columns, const Ints& rows) const {
+    const Ints top = Ints{} + static_cast<std::int32_t>(kTopBits);
+    const Ints ranks = Ints{} + rank * 0x01010101;
+    const Ints asked = (Ints{} + 0x80) | ((columns > 0) & 0x8000) | ((columns > 1) & 0x800000) |
+                       ((columns > 2) & static_cast<std::int32_t>(0x80000000));
+    Ints offsets = dot(first, both(1, static_cast<int>(stride)));
+    Ints held = asked;
+    for (int dy = 0;; ++dy) {
+      held &= (four_bytes(origin, offsets) | top) - ranks;
+      const Ints further = rows > dy;
+      if (dy == 3 || sign_bits(further) == 0) break;
+      offsets += further & static_cast<std::int32_t>(stride);
+    }
+    return sign_bits(held == asked);
+  }
+
  private:
   static constexpr std::uint32_t kTopBits = 0x80808080;
 };
 
-/// Lists the triangles that are turned the right way, have a centre within their bounds, and may
-/// raise a pixel: few, as most triangles are smaller than a pixel, and most of the others lie
-/// in front of brighter shells. The list is padded to whole vectors.
+/// Of the candidates from `i` on, a vector of them, those that may raise a pixel: a bit each.
+inline unsigned raising(const RaisedPixels<std::uint8_t, false>& raised, const Candidates& all,
+                        int i) {
+  const Ints used = lane_numbers() < all.count - i;
+  // Unused lanes look where the first does.
+  const Ints pixel = load<Ints>(all.first + i);
+  const auto first = bits_as<Shorts>(used ? pixel : Ints{} + pixel[0]);
+  const Ints size = used & load<Ints>(all.size + i);
+  const Ints columns = (size << 16) >> 16;
+  const Ints rows = size >> 16;
+  const Ints large = (columns > 3) | (rows > 3);
+  unsigned held = raised.hold(first, columns, ~large & rows) & ~sign_bits(large);
+  for (unsigned larges = sign_bits(large); larges != 0; larges &= larges - 1) {
+    const int lane = __builtin_ctz(larges);
+    const int x = 2 * lane;
+    held |= raised.hold(first[x], first[x + 1], columns[lane], rows[lane]) << lane;
+  }
+  return sign_bits(used) & ~held;
+}
+
+/// Leaves out what cannot raise a pixel.
+inline void keep_raising(const RaisedPixels<std::uint8_t, false>& raised, Candidates& all) {
+  if (raised.rank >= 128) return;
+  int kept = 0;
+  for (int i = 0; i < all.count; i += kLanes) {
+    const unsigned lanes = raising(raised, all, i);
+    store_lanes(all.numbers + kept, load<Ints>(all.numbers + i), lanes);
+    kept += __builtin_popcount(lanes);
+  }
+  all.count = kept;
+}
+
+/// Whether what is done for few of a vector's lanes waits until there are as many as lanes: where
+/// there are so many that taking them one by one costs more than putting them together.
+constexpr bool kGathersFirst = kLanes > 8;
+
+/// Adds those lanes (a bit each) of the triangles from `t` on that may raise a pixel.
 template <class Raised>
-int list_candidates(const PixelVertices& vertices, const CornerArrays& corners, int count,
-                    bool both_faces, const Clip& clip, const Raised& raised, std::uint8_t* list) {
-  int listed = 0;
-  for (int t = 0; t < count; t += kLanes) {
-    Triangles triangles = gather(vertices.xy, corners, t);
-    const Ints area = orient(triangles, both_faces).twice;
-    const Centers centers = centers_of(triangles, clip);
-    const Ints empty = bits_as<Ints>(centers.first > centers.last);
-    unsigned some = sign_bits((empty == 0) & (area > 0));
-    if (some == 0) continue;
+void add_candidates(unsigned lanes, int t, const Centers& centers, const Raised& raised,
+                    Candidates& out) {
+  if constexpr (kGathersFirst) {
+    store_lanes(out.numbers + out.count, lane_numbers() + t, lanes);
+    if constexpr (Raised::kKnown) {
+      store_lanes(out.first + out.count, bits_as<Ints>(centers.first), lanes);
+      store_lanes(out.size + out.count, bits_as<Ints>(centers.last - centers.first), lanes);
+    }
+    out.count += __builtin_popcount(lanes);
+  } else if (lanes != 0) {
     [[maybe_unused]] alignas(64) std::int16_t first[2 * kLanes];
     [[maybe_unused]] alignas(64) std::int16_t size[2 * kLanes];
     if constexpr (Raised::kKnown) {
       store(first, centers.first);
       store(size, centers.last - centers.first);
     }
-    for (; some != 0; some &= some - 1) {
-      const int lane = __builtin_ctz(some);
-      list[listed++] = static_cast<std::uint8_t>(t + lane);
+    int count = out.count;
+    for (; lanes != 0; lanes &= lanes - 1) {
+      const int lane = __builtin_ctz(lanes);
+      out.numbers[count++] = t + lane;
       if constexpr (Raised::kKnown) {
         const int x = 2 * lane;
-        listed -= static_cast<int>(raised.hold(first[x], first[x + 1], size[x], size[x + 1]));
+        count -= static_cast<int>(raised.hold(first[x], first[x + 1], size[x], size[x + 1]));
       }
     }
+    out.count = count;
   }
-  for (int i = 0; i < kLanes; ++i) list[listed + i] = 0;
-  return listed;
+}
+
+/// Lists the triangles that are turned the right way, have a centre within their bounds, and may
+/// raise a pixel: few, as most triangles are smaller than a pixel, and most of the others lie
+/// in front of brighter shells. Corners are padded to whole vectors.
+template <class Raised>
+void list_candidates(const PixelVertices& vertices, const CornerArrays& corners, int count,
+                     bool both_faces, const Clip& clip, const Raised& raised, Candidates& out) {
+  out.count = 0;
+  for (int t = 0; t < count; t += kLanes) {
+    Triangles triangles = gather(vertices, corners, t);
+    const Ints area = orient(triangles, both_faces).twice;
+    const Centers centers = centers_of(triangles, clip);
+    const Ints empty = bits_as<Ints>(centers.first > centers.last);
+    add_candidates(sign_bits((empty == 0) & (area > 0)), t, centers, raised, out);
+  }
+  if constexpr (kGathersFirst && Raised::kKnown) keep_raising(raised, out);
+  for (int i = 0; i < out.count; ++i) {
+    const int t = out.numbers[i];
+    out.corners[0][i] = corners.first[t];
+    out.corners[1][i] = corners.second[t];
+    out.corners[2][i] = corners.third[t];
+  }
+  for (auto& corner : out.corners) __builtin_memset(corner + out.count, 0, kLanes);
 }
 
 /// -1 where a centre exactly on the edge is not covered: on lower and right edges.

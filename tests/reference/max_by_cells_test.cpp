@@ -14,12 +14,14 @@
 #include "reference/exact_picture.h"
 #include "reference/exact_walk.h"
 #include "reference/tile_lists.h"
+#include "tests/support/instruction_sets.h"
 #include "tests/support/test_volumes.h"
 
 namespace nacre {
 namespace {
 
 using testing::camera_of;
+using testing::instruction_sets;
 using testing::random_volume;
 using testing::volume_of;
 
@@ -208,12 +210,12 @@ TEST(MaxByCells, EveryInstructionSetGivesTheSameBits) {
       const Camera camera = camera_of(volume, options);
       for (const DepthCue& cue : {DepthCue{}, DepthCue{0.6, 0.4, 0.0}, DepthCue{-1.5, 1.5, 0.0}}) {
         std::vector<std::vector<float>> pixels;
-        for (const InstructionSet set : {InstructionSet::Baseline, InstructionSet::Avx2}) {
+        for (const InstructionSet set : instruction_sets()) {
           const MaxByCells scene{&walk.field(), &walk.bright_bricks(), &walk.cued_emission(),
                                  cell_kernel_for(set)};
           pixels.push_back(max_picture_by_cells(scene, camera, cue, {}, nullptr, {}).volume.pixels);
         }
-        EXPECT_EQ(pixels[0], pixels[1]);
+        for (const auto& others : pixels) EXPECT_EQ(others, pixels[0]);
       }
     }
   }

@@ -41,8 +41,15 @@ MeshClusters clusters_of(const Corners& corners, const glm::vec3& depths = {}) {
   return cluster_mesh(mesh);
 }
 
-enum class Way { Baseline, Best, Large };
-constexpr std::array<Way, 3> kWays{Way::Baseline, Way::Best, Way::Large};
+enum class Way { Baseline, Avx2, Avx512, Large };
+constexpr std::array<Way, 4> kWays{Way::Baseline, Way::Avx2, Way::Avx512, Way::Large};
+constexpr std::array<Way, 2> kWideWays{Way::Avx2, Way::Avx512};
+
+/// The instruction set of a way that has one; the baseline where this processor lacks it.
+InstructionSet instructions_of(Way way) {
+  const InstructionSet set = way == Way::Avx512 ? InstructionSet::Avx512 : InstructionSet::Avx2;
+  return way != Way::Baseline && has_instruction_set(set) ? set : InstructionSet::Baseline;
+}
 
 /// Draws a triangle of a rank over pixels.
 void draw_over(std::vector<std::uint8_t>& pixels, const Corners& corners, std::uint8_t rank,
@@ -56,7 +63,7 @@ void draw_over(std::vector<std::uint8_t>& pixels, const Corners& corners, std::u
   if (way == Way::Large) {
     draw_large_cluster(draw, pixels_as_positions(), target);
   } else {
-    const InstructionSet set = way == Way::Best ? best_instruction_set() : InstructionSet::Baseline;
+    const InstructionSet set = instructions_of(way);
     const KernelResult result =
         draw_clusters_for<std::uint8_t>(set)(draw, pixels_as_positions(), target, too_large.data());
     EXPECT_EQ(result.too_large, 0U);
@@ -86,7 +93,7 @@ std::vector<Pixel> left_of(const MeshClusters& mesh, Way way, const Brightness<P
   if (way == Way::Large) {
     draw_large_cluster(draw, projection, target);
   } else {
-    const InstructionSet set = way == Way::Best ? best_instruction_set() : InstructionSet::Baseline;
+    const InstructionSet set = instructions_of(way);
     draw_clusters_for<Pixel>(set)(draw, projection, target, too_large.data());
   }
   pixels.resize(kSide * kSide);
@@ -112,7 +119,7 @@ TEST(CpuCoverage, BothWaysAndAllInstructionsCoverTheSame) {
   for (int i = 0; i < 500; ++i) {
     const Corners corners{random_corner(random), random_corner(random), random_corner(random)};
     const auto expected = covered(corners, Way::Baseline);
-    ASSERT_EQ(covered(corners, Way::Best), expected);
+    for (const Way vectors : kWideWays) ASSERT_EQ(covered(corners, vectors), expected);
     ASSERT_EQ(covered(corners, Way::Large), expected);
   }
 }
@@ -138,15 +145,18 @@ TEST(CpuCoverage, BothWaysAndAllInstructionsCutTheSame) {
     const Brightness<std::int64_t> integral{0.0F, 1000.0F, 30.0F, 100.0F, true};
     const auto sum = left_of<std::int64_t>(mesh, Way::Baseline, integral, &ends);
     const auto sum_large = left_of<std::int64_t>(mesh, Way::Large, integral, &ends);
-    ASSERT_EQ(left_of<std::int64_t>(mesh, Way::Best, integral, &ends), sum);
+    for (const Way vectors : kWideWays)
+      ASSERT_EQ(left_of<std::int64_t>(mesh, vectors, integral, &ends), sum);
     const auto crossings = left_of<std::int64_t>(mesh, Way::Baseline, {5.0F}, &ends);
-    for (const Way way : {Way::Best, Way::Large}) {
+    for (const Way way : {Way::Avx2, Way::Avx512, Way::Large}) {
       ASSERT_EQ(left_of<std::int64_t>(mesh, way, {5.0F}, &ends), crossings);
       ASSERT_EQ(left_of<std::uint8_t>(mesh, way, {3}, &ends), rank);
       ASSERT_EQ(left_of<std::int32_t>(mesh, way, {}, &ends), count);
     }
-    ASSERT_EQ(left_of<float>(mesh, Way::Best, {1.0F, 0.5F}, &ends), cued);
-    ASSERT_EQ(left_of<std::uint64_t>(mesh, Way::Best, {7}, nullptr), keys);
+    for (const Way vectors : kWideWays)
+      ASSERT_EQ(left_of<float>(mesh, vectors, {1.0F, 0.5F}, &ends), cued);
+    for (const Way vectors : kWideWays)
+      ASSERT_EQ(left_of<std::uint64_t>(mesh, vectors, {7}, nullptr), keys);
     const auto cued_large = left_of<float>(mesh, Way::Large, {1.0F, 0.5F}, &ends);
     const auto keys_large = left_of<std::uint64_t>(mesh, Way::Large, {7}, nullptr);
     for (std::size_t p = 0; p < keys.size(); ++p) {
@@ -236,7 +246,8 @@ TEST(CpuCoverage, SumsLeaveTheDepthsOfTrianglesWithoutArea) {
     const MeshClusters mesh = clusters_of(corners, {depth(random), depth(random), depth(random)});
     const auto sum = left_of<std::int64_t>(mesh, Way::Baseline, integral, nullptr);
     const auto large = left_of<std::int64_t>(mesh, Way::Large, integral, nullptr);
-    ASSERT_EQ(left_of<std::int64_t>(mesh, Way::Best, integral, nullptr), sum);
+    for (const Way vectors : kWideWays)
+      ASSERT_EQ(left_of<std::int64_t>(mesh, vectors, integral, nullptr), sum);
     for (std::size_t p = 0; p < sum.size(); ++p) {
       ASSERT_NEAR(static_cast<double>(sum[p]), static_cast<double>(large[p]), 2e-4 * kSteps);
       covered += sum[p] != 0 ? 1U : 0U;
@@ -264,7 +275,8 @@ TEST(CpuCoverage, SumsTakeTheDepthOfTheTriangleAsItWas) {
     const glm::vec3 depths(depth(random), depth(random), depth(random));
     const MeshClusters mesh = clusters_of(corners, depths);
     const auto sum = left_of<std::int64_t>(mesh, Way::Baseline, integral, nullptr);
-    ASSERT_EQ(left_of<std::int64_t>(mesh, Way::Best, integral, nullptr), sum);
+    for (const Way vectors : kWideWays)
+      ASSERT_EQ(left_of<std::int64_t>(mesh, vectors, integral, nullptr), sum);
     const auto large = left_of<std::int64_t>(mesh, Way::Large, integral, nullptr);
     const auto [least, greatest] = std::minmax({depths[0], depths[1], depths[2]});
     const float beyond = 0.26F * (greatest - least);

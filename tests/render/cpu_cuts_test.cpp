@@ -16,6 +16,7 @@
 #include "tests/render/both_renderers.h"
 #include "tests/render/cpu_test_support.h"
 #include "tests/render/gl_test_support.h"
+#include "tests/support/instruction_sets.h"
 #include "tests/support/nested_shells.h"
 
 namespace nacre::testing {
@@ -205,13 +206,14 @@ TEST(CpuCutsAlone, AreTheSameForAllThreadsAndInstructions) {
       const Picture expected = draw(scan.set, tools, camera, options);
       for (const std::size_t threads : {1U, 2U, 5U}) {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-        const Picture picture =
-            draw(scan.set, tools, camera, options, {.instructions = InstructionSet::Baseline});
-        EXPECT_EQ(picture.volume.pixels, expected.volume.pixels) << threads;
-        ASSERT_EQ(picture.tools.has_value(), expected.tools.has_value());
-        if (!expected.tools) continue;
-        EXPECT_EQ(picture.tools->colors, expected.tools->colors) << threads;
-        EXPECT_EQ(picture.tools->covered, expected.tools->covered) << threads;
+        for (const InstructionSet set : instruction_sets()) {
+          const Picture picture = draw(scan.set, tools, camera, options, {.instructions = set});
+          EXPECT_EQ(picture.volume.pixels, expected.volume.pixels) << threads;
+          ASSERT_EQ(picture.tools.has_value(), expected.tools.has_value());
+          if (!expected.tools) continue;
+          EXPECT_EQ(picture.tools->colors, expected.tools->colors) << threads;
+          EXPECT_EQ(picture.tools->covered, expected.tools->covered) << threads;
+        }
       }
     }
   }

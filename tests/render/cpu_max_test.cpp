@@ -12,6 +12,7 @@
 #include "render/cpu/cpu_renderer.h"
 #include "tests/render/cpu_test_support.h"
 #include "tests/render/gl_test_support.h"
+#include "tests/support/instruction_sets.h"
 #include "tests/support/nested_shells.h"
 
 namespace nacre::testing {
@@ -207,9 +208,10 @@ TEST(CpuMax, IsTheSameForAllThreadsAndInstructions) {
       const Image expected = draw(scan.set, camera, {.cue = cue});
       for (const std::size_t threads : {1U, 2U, 5U}) {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-        const Image image =
-            draw(scan.set, camera, {.cue = cue}, {.instructions = InstructionSet::Baseline});
-        EXPECT_EQ(image.pixels, expected.pixels) << threads;
+        for (const InstructionSet set : instruction_sets()) {
+          const Image image = draw(scan.set, camera, {.cue = cue}, {.instructions = set});
+          EXPECT_EQ(image.pixels, expected.pixels) << threads;
+        }
       }
     }
   }

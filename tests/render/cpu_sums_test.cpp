@@ -17,6 +17,7 @@
 #include "tests/render/both_renderers.h"
 #include "tests/render/cpu_test_support.h"
 #include "tests/render/gl_test_support.h"
+#include "tests/support/instruction_sets.h"
 #include "tests/support/nested_shells.h"
 
 namespace nacre::testing {
@@ -291,7 +292,7 @@ TEST(CpuSumsAlone, AreTheSameForAllThreadsAndInstructions) {
           const Image expected = draw(scan.set, tools, camera, options).volume;
           for (const std::size_t threads : {1U, 2U, 3U}) {
             const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-            for (const InstructionSet set : {InstructionSet::Baseline, best_instruction_set()}) {
+            for (const InstructionSet set : instruction_sets()) {
               const Picture picture = draw(scan.set, tools, camera, options, {.instructions = set});
               EXPECT_EQ(picture.volume.pixels, expected.pixels) << threads;
             }
