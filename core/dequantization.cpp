@@ -401,17 +401,25 @@ LayerFilter layer_filter(const Image& maximum, std::span<const LayerRange> layer
 }
 
 void dequantize(Image& maximum, std::span<const LayerRange> layers,
-                std::span<const std::uint8_t> fixed, const RowLoop& rows) {
+                std::span<const std::uint8_t> fixed, const RowLoop& rows,
+                std::vector<float>& memory) {
   const Occupancy occupancy(maximum, rows);
   const LayerLookup lookup(layers);
   const RowEstimate estimate(filter_of(maximum, occupancy, lookup, rows), lookup);
-  std::vector<float> pixels = maximum.pixels;
+  memory.resize(maximum.pixels.size());
   run(rows, maximum.height, [&](int y) {
     const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(maximum.width) * y;
-    estimate.write(maximum, occupancy, fixed.empty() ? nullptr : fixed.data() + first, y,
-                   pixels.data() + first);
+    float* out = memory.data() + first;
+    std::copy_n(maximum.pixels.data() + first, maximum.width, out);
+    estimate.write(maximum, occupancy, fixed.empty() ? nullptr : fixed.data() + first, y, out);
   });
-  maximum.pixels.swap(pixels);
+  maximum.pixels.swap(memory);
+}
+
+void dequantize(Image& maximum, std::span<const LayerRange> layers,
+                std::span<const std::uint8_t> fixed, const RowLoop& rows) {
+  std::vector<float> memory;
+  dequantize(maximum, layers, fixed, rows, memory);
 }
 
 }  // namespace nacre

@@ -64,6 +64,12 @@ LayerFilter layer_filter(const Image& maximum, std::span<const LayerRange> layer
 /// @param fixed    pixels of the background that stay black, if not 0; empty: none. For tools,
 /// which
 ///                 end rays: the next pixel's vessel may lie behind them
+/// @param memory  where the result is put; has the memory of what the picture was when this returns
+void dequantize(Image& maximum, std::span<const LayerRange> layers,
+                std::span<const std::uint8_t> fixed, const RowLoop& rows,
+                std::vector<float>& memory);
+
+/// The same where memory does not matter.
 void dequantize(Image& maximum, std::span<const LayerRange> layers,
                 std::span<const std::uint8_t> fixed = {}, const RowLoop& rows = {});
 

@@ -6,11 +6,12 @@
 
 namespace nacre {
 
-void finish_picture(const Plan& plan, Picture& picture, const RowLoop& rows) {
+void finish_picture(const Plan& plan, Picture& picture, std::vector<float>& memory,
+                    const RowLoop& rows) {
   if (plan.layers.empty()) return;
   std::span<const std::uint8_t> fixed;
   if (picture.tools) fixed = picture.tools->covered;
-  dequantize(picture.volume, plan.layers, fixed, rows);
+  dequantize(picture.volume, plan.layers, fixed, rows, memory);
 }
 
 void check_upload(const ShellSet& set, const SceneFacts& facts,

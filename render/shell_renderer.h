@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/camera.h"
 #include "core/image.h"
@@ -82,7 +83,9 @@ class ShellRenderer {
 
 /// What is done to a picture once it is drawn: a maximum is estimated between its levels, where
 /// that is planned. The background stays black where a tool is seen.
-void finish_picture(const Plan& plan, Picture& picture, const RowLoop& rows = {});
+/// @param memory  as in `dequantize`: kept by a renderer from picture to picture
+void finish_picture(const Plan& plan, Picture& picture, std::vector<float>& memory,
+                    const RowLoop& rows = {});
 
 /// Checks what is to be uploaded.
 /// @throws Error  BadArgument for a shell that does not exist or has no such number of triangles

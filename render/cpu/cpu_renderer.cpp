@@ -113,7 +113,7 @@ class CpuRenderer::Drawing {
       scene.shells[shell] = &mesh_for(shell, camera);
     }
     Picture picture = pictures_.draw(camera, plan, scene);
-    finish_picture(plan, picture, [](int count, const std::function<void(int)>& row) {
+    finish_picture(plan, picture, memory_, [](int count, const std::function<void(int)>& row) {
       tbb::parallel_for(0, count, row);
     });
     frame_ = pictures_.stats();
@@ -172,6 +172,7 @@ class CpuRenderer::Drawing {
   std::vector<std::vector<DetailLevel>> shells_;  // one a shell of the set; empty: not uploaded
   ToolMeshes tools_;
   PlanDrawing pictures_;
+  std::vector<float> memory_;  // see `finish_picture`
   FrameStats frame_;
 };
 

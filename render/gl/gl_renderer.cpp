@@ -83,7 +83,7 @@ class GlRenderer::Drawing {
     const Clock::time_point start = Clock::now();
     Picture picture =
         pictures_.draw(camera, plan, {scene_.center_mm, pointer(shells_), pointer(tools_)});
-    finish_picture(plan, picture);
+    finish_picture(plan, picture, memory_);
     frame_ = pictures_.stats();
     frame_.seconds = std::chrono::duration<double>(Clock::now() - start).count();
     return picture;
@@ -129,6 +129,7 @@ class GlRenderer::Drawing {
   GlFunctions gl_;
   Capabilities capabilities_;
   PictureDrawing pictures_;
+  std::vector<float> memory_;  // see `finish_picture`
   std::optional<ShellBuffers> shells_;
   std::optional<ToolBuffers> tools_;
   SceneFacts scene_;

@@ -105,8 +105,7 @@ TEST_F(ShellCommand, RenderShowsTheExactPictureToHalfALayer) {
   require_backend();
   ASSERT_EQ(nacre("reference ball.nii --window 0,28 --size 64x64 --azimuth 30 -o exact.tif").status,
             0);
-  ASSERT_EQ(nacre("render ball.glb --size 64x64 --azimuth 30 --layers flat -o shells.tif").status,
-            0);
+  ASSERT_EQ(nacre("render ball.glb --size 64x64 --azimuth 30 -o shells.tif").status, 0);
   ASSERT_EQ(nacre("render ball.nii --window 0,28 --levels 7 --method shells --size 64x64 "
                   "--azimuth 30 -o memory.tif")
                 .status,
@@ -155,7 +154,8 @@ TEST_F(ShellCommand, ErrorsAreSplitIntoCausesThatAddUp) {
   EXPECT_NE(drawn.errors.find("dominates"), std::string::npos);
 
   // A picture that was drawn before has the same causes.
-  ASSERT_EQ(nacre("render ball.glb --size 64x64 --azimuth 30 -o shells.tif").status, 0);
+  ASSERT_EQ(nacre("render ball.glb --size 64x64 --azimuth 30 --layers flat -o shells.tif").status,
+            0);
   const CommandResult given = nacre(explain + "--azimuth 30 --json - shells.tif");
   ASSERT_EQ(given.status, 0) << given.errors;
   EXPECT_EQ(json::parse(given.output)["error_split"], split);
