@@ -25,25 +25,28 @@ constexpr double kMiddleStep = 0.13;
 constexpr double kFineStep = 0.065;
 constexpr double kFinestStep = 1.0 / 64.0;
 
-// The tolerance is about a layer's width, which costs least at equal error
-// (docs/decisions/022-budgets.md). Each set is some 1.2 to 2 times as large as the one before it.
+// The tolerance is a little less than a layer's width, which costs least at equal error of maxima
+// estimated between the levels (docs/decisions/022-budgets.md). Each set is some 1.1 to 2 times as
+// large as the one before it.
 constexpr std::array kRungs{
-    Rung{1, 0.4, kCoarseStep},    Rung{2, 0.35, kCoarseStep},   Rung{4, 0.25, kCoarseStep},
-    Rung{6, 0.18, kCoarseStep},   Rung{8, 0.14, kCoarseStep},   Rung{10, 0.12, kCoarseStep},
-    Rung{12, 0.1, kCoarseStep},   Rung{14, 0.085, kMiddleStep}, Rung{16, 0.075, kMiddleStep},
-    Rung{20, 0.06, kMiddleStep},  Rung{24, 0.05, kMiddleStep},  Rung{28, 0.04, kFineStep},
-    Rung{32, 0.034, kFineStep},   Rung{40, 0.026, kFineStep},   Rung{48, 0.02, kFinestStep},
-    Rung{64, 0.015, kFinestStep},
+    Rung{1, 0.4, kCoarseStep},    Rung{2, 0.28, kCoarseStep},   Rung{3, 0.23, kCoarseStep},
+    Rung{4, 0.2, kCoarseStep},    Rung{5, 0.165, kCoarseStep},  Rung{6, 0.155, kCoarseStep},
+    Rung{7, 0.13, kCoarseStep},   Rung{8, 0.115, kCoarseStep},  Rung{9, 0.1, kCoarseStep},
+    Rung{10, 0.09, kCoarseStep},  Rung{10, 0.09, kMiddleStep},  Rung{11, 0.084, kMiddleStep},
+    Rung{12, 0.078, kMiddleStep}, Rung{14, 0.066, kMiddleStep}, Rung{16, 0.058, kMiddleStep},
+    Rung{18, 0.052, kMiddleStep}, Rung{20, 0.047, kMiddleStep}, Rung{24, 0.039, kMiddleStep},
+    Rung{28, 0.033, kFineStep},   Rung{32, 0.028, kFineStep},   Rung{40, 0.022, kFineStep},
+    Rung{48, 0.018, kFinestStep}, Rung{64, 0.013, kFinestStep},
 };
 
 constexpr std::array kTolerances{0.4, 0.3, 0.2, 0.15, 0.1, 0.07, 0.05, 0.035, 0.025, 0.018, 0.012};
-constexpr std::array<std::size_t, 16> kLevels{1,  2,  4,  6,  8,  10, 12, 14,
-                                              16, 20, 24, 28, 32, 40, 48, 64};
+constexpr std::array<std::size_t, 19> kLevels{1,  2,  3,  4,  5,  6,  7,  8,  10, 12,
+                                              14, 16, 20, 24, 28, 32, 40, 48, 64};
 
 /// The grid that suits a tolerance where the rungs do not say it.
 double step_for(double tolerance) {
-  if (tolerance > 0.09) return kCoarseStep;
-  if (tolerance > 0.045) return kMiddleStep;
+  if (tolerance > 0.07) return kCoarseStep;
+  if (tolerance > 0.036) return kMiddleStep;
   return tolerance > 0.019 ? kFineStep : kFinestStep;
 }
 
