@@ -3,6 +3,8 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -45,6 +47,23 @@ void check_size(const Image& picture, const Camera& camera) {
                           picture.height, camera.size.x, camera.size.y));
 }
 
+/// Pixels between the levels are no rasterisation of these shells.
+void warn_of_smooth_layers(const Image& picture, const ShellSet& set, const RenderOptions& options,
+                           Reporter& reporter) {
+  if (options.mode != PictureMode::Max || !is_flat(options.cue)) return;
+  std::set<float> shown{0.0F};
+  for (const Shell& shell : set.shells) {
+    shown.insert(static_cast<float>(beta(options.cue, 0.0) * shell.representative));
+  }
+  const auto between = std::count_if(picture.pixels.begin(), picture.pixels.end(),
+                                     [&](float pixel) { return !shown.contains(pixel); });
+  if (between == 0) return;
+  reporter.warn(fmt::format(
+      "picture: found {} pixels between the set's levels, expected --layers flat: what smooth "
+      "layers change counts as rasterisation",
+      between));
+}
+
 }  // namespace
 
 ExplainedError explain_error(const ExplainFlags& flags, std::optional<Image> picture,
@@ -56,7 +75,10 @@ ExplainedError explain_error(const ExplainFlags& flags, std::optional<Image> pic
   const Camera camera =
       make_camera(camera_options(flags.scene.camera),
                   bounding_sphere(info.set.volume.dims, info.set.volume.world_from_voxel));
-  if (picture) check_size(*picture, camera);
+  if (picture) {
+    check_size(*picture, camera);
+    warn_of_smooth_layers(*picture, info.set, options, reporter);
+  }
 
   Volume volume = read_volume_for(flags, reporter);
   ShellSet set = read_shell_set(flags.set, {.progress = reporter.progress()});

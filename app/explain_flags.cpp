@@ -16,6 +16,7 @@ void add_scene(CLI::App& verb, ExplainFlags& flags) {
   add_scene_flags(verb, flags.scene.scene);
   add_camera_flags(verb, flags.scene.camera);
   add_draw_flags(verb, flags.draw);
+  verb.remove_option(verb.get_option("--layers"));  // flat: what levels cost is one of the causes
   add_volume_reading_flags(verb, flags.scene.volume);
   verb.add_option("--map", flags.scene.volume.map,
                   "VALUE:EMISSION,... that the set was built with, if it rises and falls")
@@ -27,11 +28,12 @@ void add_scene(CLI::App& verb, ExplainFlags& flags) {
 void add_explain_flags(CLI::App& verb, ExplainFlags& flags) {
   const std::string group = "Causes of an error";
   auto* explain =
-      verb.add_option("--explain-error", flags.set,
-                      "Shell set (.glb): split the error of its picture against the exact one of "
-                      "--volume into levels, contouring, vertex quantisation, simplification and "
-                      "rasterisation. PICTURE, if given, is what was drawn (--size its size); else "
-                      "it is drawn now")
+      verb.add_option(
+              "--explain-error", flags.set,
+              "Shell set (.glb): split the error of its picture against the exact one of "
+              "--volume into levels, contouring, vertex quantisation, simplification and "
+              "rasterisation. PICTURE, if given, is what was drawn, with flat layers (--size "
+              "its size); else it is drawn now")
           ->group(group);
   auto* volume = verb.add_option("--volume", flags.scene.volume.path,
                                  "The volume that the set was built from, read as it was then")

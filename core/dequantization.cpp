@@ -20,10 +20,34 @@ static_assert(kBlock % kLanes == 0);
 /// Mean squared difference of neighbours, in squared layers, from which on what quantising leaves
 /// of them is taken as independent.
 constexpr double kIndependent = 0.25;
+/// Variance of errors that contours and simplifying leave in each class's sum of differences, in
+/// squared widths. Without it, weights would grow beyond measure along straight vessels.
+constexpr double kOtherErrors = 0.2;
 /// Rows that covariances are taken from, at even distances.
 constexpr int kSampledRows = 128;
 /// Bins that a layer is looked up in.
 constexpr int kBins = 1024;
+
+/// A neighbour, and the class it belongs to.
+struct Offset {
+  int x;
+  int y;
+  std::size_t index;
+};
+
+/// Those beside and below; the others lie opposite.
+constexpr std::array<Offset, 12> kOffsets{{{1, 0, 0},
+                                           {0, 1, 0},
+                                           {1, 1, 1},
+                                           {-1, 1, 1},
+                                           {2, 0, 2},
+                                           {0, 2, 2},
+                                           {2, 1, 3},
+                                           {-2, 1, 3},
+                                           {1, 2, 3},
+                                           {-1, 2, 3},
+                                           {2, 2, 4},
+                                           {-2, 2, 4}}};
 
 void serial(int count, const std::function<void(int)>& row) {
   for (int i = 0; i < count; ++i) row(i);
@@ -128,33 +152,40 @@ class Neighbourhood {
         middle_(row(y)),
         down_{row(y + stride), row(y + 2 * stride)},
         length_(static_cast<std::size_t>(image.width + 2 * pad_ + kLanes)),
-        values_(3 * length_) {}
+        values_(5 * length_) {}
 
-  /// Makes pixels from x to end known.
+  /// Makes the sums of differences of pixels from x to end known.
   void fill(int x, int end) {
-    const int from = std::max(x - pad_, 0);
+    float* center = padded(0);
+    float* near = padded(1);
+    float* far = padded(2);
     const int to = std::min(end + pad_, image_.width);
-    float* center = values_.data() + pad_;
-    float* near = center + length_;
-    float* far = near + length_;
-    for (int i = from; i < to; ++i) {
+    for (int i = std::max(x - pad_, 0); i < to; ++i) {
       center[i] = middle_[i];
       near[i] = up_[0][i] + down_[0][i];
       far[i] = up_[1][i] + down_[1][i];
     }
-    for (float* row : {center, near, far}) {
-      for (int i = x - pad_; i < 0; ++i) row[i] = row[0];
-      for (int i = image_.width; i < end + pad_; ++i) row[i] = row[image_.width - 1];
+    for (float* row : {center, near, far}) fill_borders(row, x, end);
+  }
+
+  /// Makes single differences to the rows below known, after `fill`.
+  void fill_below(int x, int end) {
+    const int from = std::max(x - pad_, 0);
+    const int to = std::min(end + pad_, image_.width);
+    for (std::size_t step = 0; step < down_.size(); ++step) {
+      float* below = padded(3 + step);
+      std::copy(down_[step] + from, down_[step] + to, below + from);
+      fill_borders(below, x, end);
     }
   }
 
-  Lanes center(int x) const { return load(values_.data() + pad_ + x); }
+  Lanes center(int x) const { return load(padded(0) + x); }
 
   /// Of each class, the sum of the differences to the pixel.
   std::array<Lanes, kClasses> differences(int x) const {
-    const float* center = values_.data() + pad_ + x;
-    const float* near = center + length_;
-    const float* far = near + length_;
+    const float* center = padded(0) + x;
+    const float* near = padded(1) + x;
+    const float* far = padded(2) + x;
     const int one = stride_;
     const int two = 2 * stride_;
     const Lanes four = 4.0F * load(center);
@@ -166,36 +197,40 @@ class Neighbourhood {
         load(far - two) + load(far + two) - four};
   }
 
-  /// Squared differences to the pixels `steps` aside and below, together.
-  Lanes squared(int x, int steps) const {
-    const Lanes here = center(x);
-    const Lanes aside = load(values_.data() + pad_ + x + steps * stride_) - here;
-    const float* far = down_[static_cast<std::size_t>(steps - 1)];
-    Lanes below{};
-    for (int i = 0; i < kLanes; ++i) below[i] = far[std::min(x + i, image_.width - 1)];
-    below -= here;
-    return aside * aside + below * below;
+  /// The squared difference to one neighbour, beside or below.
+  Lanes squared(int x, const Offset& offset) const {
+    const std::size_t row = offset.y == 0 ? 0 : 2 + static_cast<std::size_t>(offset.y);
+    const Lanes difference = load(padded(row) + x + offset.x * stride_) - center(x);
+    return difference * difference;
   }
 
  private:
   const float* row(int y) const { return row_of(image_, std::clamp(y, 0, image_.height - 1)); }
 
+  float* padded(std::size_t row) { return values_.data() + row * length_ + pad_; }
+  const float* padded(std::size_t row) const { return values_.data() + row * length_ + pad_; }
+
+  void fill_borders(float* row, int x, int end) const {
+    for (int i = x - pad_; i < 0; ++i) row[i] = row[0];
+    for (int i = image_.width; i < end + pad_; ++i) row[i] = row[image_.width - 1];
+  }
+
   const Image& image_;
   int stride_;
   int pad_;
-  std::array<const float*, 2> up_;
+  std::array<const float*, kReach> up_;
   const float* middle_;
-  std::array<const float*, 2> down_;
+  std::array<const float*, kReach> down_;
   std::size_t length_;
-  std::vector<float> values_;  ///< the row, the sums of those one and two steps off
+  /// The row, the sums of those one and two steps off, those one and two steps below.
+  std::vector<float> values_;
 };
 
 /// Sums over pixels that show a shell.
 struct Statistics {
   std::array<std::array<double, kClasses>, kClasses> products{};  ///< of the classes' differences
-  std::array<double, 2> squares{};  ///< of differences one and two steps aside and below
-  double squared_widths = 0.0;      ///< of their layers
-  double pixels = 0.0;
+  std::array<double, kOffsets.size()> squares{};                  ///< of single differences
+  double squared_widths = 0.0;                                    ///< of their layers
 
   void add(const Statistics& other) {
     for (std::size_t i = 0; i < kClasses; ++i) {
@@ -203,21 +238,32 @@ struct Statistics {
     }
     for (std::size_t i = 0; i < squares.size(); ++i) squares[i] += other.squares[i];
     squared_widths += other.squared_widths;
-    pixels += other.pixels;
   }
 };
+
+/// The squared widths of the layers of the lanes that count, added up.
+double squared_widths(const Lanes& shown, const Lanes& counted, const LayerLookup& layers) {
+  double sum = 0.0;
+  for (int i = 0; i < kLanes; ++i) {
+    const LayerRange* layer = counted[i] > 0.0F ? layers.find(shown[i]) : nullptr;
+    if (layer == nullptr) continue;
+    const double width = double{layer->hi} - double{layer->lo};
+    sum += width * width;
+  }
+  return sum;
+}
 
 Statistics statistics_of_row(const Image& image, const Occupancy& occupancy,
                              const LayerLookup& layers, int stride, int y) {
   Neighbourhood around(image, stride, y);
   std::array<std::array<Lanes, kClasses>, kClasses> products{};
-  std::array<Lanes, 2> squares{};
-  Lanes pixels{};
+  std::array<Lanes, kOffsets.size()> squares{};
   Statistics sums;
   for (int block = 0; block < occupancy.blocks(); ++block) {
     if (!occupancy.shows(block, y)) continue;
     const int end = std::min((block + 1) * kBlock, image.width);
     around.fill(block * kBlock, end);
+    around.fill_below(block * kBlock, end);
     for (int x = block * kBlock; x < end; x += kLanes) {
       Lanes counted = shows(around.center(x));
       for (int i = end - x; i < kLanes; ++i) counted[i] = 0.0F;
@@ -226,25 +272,18 @@ Statistics statistics_of_row(const Image& image, const Occupancy& occupancy,
         const Lanes difference = counted * differences[i];
         for (std::size_t j = 0; j <= i; ++j) products[i][j] += difference * differences[j];
       }
-      squares[0] += counted * around.squared(x, 1);
-      squares[1] += counted * around.squared(x, 2);
-      pixels += counted;
-      for (int i = 0; i < kLanes; ++i) {
-        if (counted[i] == 0.0F) continue;
-        const LayerRange* layer = layers.find(around.center(x)[i]);
-        const double width = layer == nullptr ? 0.0 : double{layer->hi} - double{layer->lo};
-        sums.squared_widths += width * width;
+      for (std::size_t i = 0; i < kOffsets.size(); ++i) {
+        squares[i] += counted * around.squared(x, kOffsets[i]);
       }
+      sums.squared_widths += squared_widths(around.center(x), counted, layers);
     }
   }
   for (std::size_t i = 0; i < kClasses; ++i) {
     for (std::size_t j = 0; j <= i; ++j) {
-      sums.products[i][j] = sum_of(products[i][j]);
-      sums.products[j][i] = sums.products[i][j];
+      sums.products[i][j] = sums.products[j][i] = sum_of(products[i][j]);
     }
   }
   for (std::size_t i = 0; i < squares.size(); ++i) sums.squares[i] = sum_of(squares[i]);
-  sums.pixels = sum_of(pixels);
   return sums;
 }
 
@@ -262,34 +301,22 @@ Statistics statistics_of(const Image& image, const Occupancy& occupancy, const L
   return all;
 }
 
-/// Mean squared difference of pixels one or two steps apart (0, 1), in squared widths.
-double mean_square(const Statistics& sums, std::size_t steps) {
-  return sums.squared_widths > 0.0 ? 0.5 * sums.squares[steps] / sums.squared_widths : 0.0;
-}
-
-/// -E[(q(n) - q(p)) u(p)], u what quantising leaves, in squared widths, for neighbours `distance`
-/// steps away (docs/derivations.md, 3.5).
-double covariance_with_error(const Statistics& sums, double distance) {
+/// -E[(q(n) - q(p)) u(p)], u what quantising leaves, in squared widths, where the neighbour's mean
+/// squared difference is that (docs/derivations.md, 3.5).
+double covariance_with_error(double mean_square) {
   constexpr double kVariance = 1.0 / 12.0;
-  const double near = mean_square(sums, 0);
-  const double far = mean_square(sums, 1);
-  if (!(near > 0.0)) return 0.0;
-  const double power = std::clamp(std::log2(far / near), 0.0, 2.0);
-  const double square = near * std::pow(distance, power);
-  return square < 0.5 ? std::min(kVariance, 0.5 * square * (1.0 - square)) : kVariance;
+  if (!(mean_square < 0.5)) return kVariance;
+  return std::min(kVariance, 0.5 * mean_square * (1.0 - mean_square));
 }
 
-/// Solves for the weights by Cholesky's factors; all 0 where the differences say nothing.
+/// Solves for the weights by Cholesky's factors.
 std::array<double, kClasses> solve(std::array<std::array<double, kClasses>, kClasses> a,
                                    std::array<double, kClasses> b) {
-  double trace = 0.0;
-  for (std::size_t i = 0; i < kClasses; ++i) trace += a[i][i];
-  if (!(trace > 0.0)) return {};
-  for (std::size_t i = 0; i < kClasses; ++i) a[i][i] += 1e-6 * trace;
   for (std::size_t i = 0; i < kClasses; ++i) {
     for (std::size_t j = 0; j <= i; ++j) {
       double rest = a[i][j];
       for (std::size_t k = 0; k < j; ++k) rest -= a[i][k] * a[j][k];
+      if (i == j && !(rest > 0.0)) return {};
       a[i][j] = i == j ? std::sqrt(rest) : rest / a[j][j];
     }
     for (std::size_t k = 0; k < i; ++k) b[i] -= a[i][k] * b[k];
@@ -302,22 +329,30 @@ std::array<double, kClasses> solve(std::array<std::array<double, kClasses>, kCla
   return b;
 }
 
+/// All 0 where nothing is to be told.
 std::array<double, kClasses> weights_of(const Statistics& sums) {
-  constexpr std::array<double, kClasses> kNeighbours{4, 4, 4, 8, 4};
-  const std::array<double, kClasses> distances{1.0, std::sqrt(2.0), 2.0, std::sqrt(5.0),
-                                               std::sqrt(8.0)};
+  if (!(sums.squared_widths > 0.0)) return {};
+  std::array<std::array<double, kClasses>, kClasses> left = sums.products;
   std::array<double, kClasses> right{};
-  for (std::size_t i = 0; i < kClasses; ++i) {
-    right[i] = kNeighbours[i] * sums.squared_widths * covariance_with_error(sums, distances[i]);
+  for (std::size_t i = 0; i < kClasses; ++i) left[i][i] += kOtherErrors * sums.squared_widths;
+  for (std::size_t i = 0; i < kOffsets.size(); ++i) {  // each stands for the opposite one as well
+    right[kOffsets[i].index] +=
+        2.0 * sums.squared_widths * covariance_with_error(sums.squares[i] / sums.squared_widths);
   }
-  return solve(sums.products, right);
+  return solve(left, right);
+}
+
+/// Of the next pixels beside and below, in squared widths.
+double mean_square(const Statistics& sums) {
+  return sums.squared_widths > 0.0 ? 0.5 * (sums.squares[0] + sums.squares[1]) / sums.squared_widths
+                                   : kIndependent;
 }
 
 LayerFilter filter_of(const Image& image, const Occupancy& occupancy, const LayerLookup& layers,
                       const RowLoop& rows) {
   for (int stride = 1;; stride *= 2) {
     const Statistics sums = statistics_of(image, occupancy, layers, stride, rows);
-    if (stride == kMaxStride || mean_square(sums, 0) >= kIndependent) {
+    if (stride == kMaxStride || mean_square(sums) >= kIndependent) {
       return {stride, weights_of(sums)};
     }
   }

@@ -7,7 +7,7 @@ namespace nacre {
 enum class InstructionSet {
   Baseline,  ///< what all processors of the architecture have
   Avx2,      ///< x86 only
-  Avx512,    ///< x86 only: AVX-512 F, BW, DQ and VL
+  Avx512,    ///< x86 only: AVX-512 F, BW, DQ and VL, and what comes with them: BMI, POPCNT
 };
 
 /// Whether this build has kernels for the set and this processor has it.

@@ -199,9 +199,12 @@ void plan_layers(Planning& planning) {
   const RenderOptions& options = planning.options;
   const auto leave_out = [&](std::string_view why) { planning.leave_out("smooth layers", why); };
   if (!options.smooth_layers) return;
-  if (planning.plan.passes.empty()) return leave_out("the picture is black");
+  const bool black = planning.plan.passes.empty() || beta(options.cue, 0.0) == 0.0;
+  if (black) return leave_out("the picture is black");
   if (!is_flat(options.cue)) return leave_out("under a cue a pixel does not tell its layer");
-  if (!options.hidden.empty()) return leave_out("shells are hidden: those shown show alone");
+  if (!options.hidden.empty()) {
+    return leave_out("shells are hidden: those shown are to show alone");
+  }
   std::vector<LayerLevel> levels;
   for (const ShellFacts& shell : planning.scene.shells) {
     levels.push_back({shell.emission, shell.representative});

@@ -127,7 +127,7 @@ struct RaisedPixels<std::uint8_t, false> {
     Ints offsets = dot(first, both(1, static_cast<int>(stride)));
     Ints held = asked;
     for (int dy = 0;; ++dy) {
-      held &= (four_bytes(origin, offsets) | top) - ranks;
+      held &= minus(four_bytes(origin, offsets) | top, ranks);
       const Ints further = rows > dy;
       if (dy == 3 || sign_bits(further) == 0) break;
       offsets += further & static_cast<std::int32_t>(stride);

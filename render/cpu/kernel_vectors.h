@@ -156,6 +156,12 @@ inline void store_lanes(std::int32_t* to, const Ints& v, unsigned lanes) {
 #endif
 }
 
+/// The difference modulo 2^32.
+inline Ints minus(const Ints& a, const Ints& b) {
+  using Unsigned [[gnu::vector_size(NACRE_VECTOR_BYTES)]] = std::uint32_t;
+  return bits_as<Ints>(bits_as<Unsigned>(a) - bits_as<Unsigned>(b));
+}
+
 /// Four bytes from each offset. AVX-512's gather is no faster (Zen 5).
 inline Ints four_bytes(const std::uint8_t* from, const Ints& offsets) {
   alignas(64) std::int32_t at[kLanes];
