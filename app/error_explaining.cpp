@@ -70,8 +70,7 @@ ExplainedError explain_error(const ExplainFlags& flags, std::optional<Image> pic
                              Reporter& reporter) {
   const std::vector<Tool> tools = read_tools(flags.scene.scene);
   const ShellFileInfo info = read_shell_file_info(flags.set);
-  RenderOptions options = render_options(flags.scene, flags.draw, info.set.shells.size());
-  options.smooth_layers = false;  // what levels cost is one of the causes
+  const RenderOptions options = render_options(flags.scene, flags.draw, info.set.shells.size());
   const Camera camera =
       make_camera(camera_options(flags.scene.camera),
                   bounding_sphere(info.set.volume.dims, info.set.volume.world_from_voxel));

@@ -16,7 +16,8 @@ void add_scene(CLI::App& verb, ExplainFlags& flags) {
   add_scene_flags(verb, flags.scene.scene);
   add_camera_flags(verb, flags.scene.camera);
   add_draw_flags(verb, flags.draw);
-  verb.remove_option(verb.get_option("--layers"));  // flat: what levels cost is one of the causes
+  verb.remove_option(verb.get_option("--layers"));
+  flags.draw.layers = "flat";  // what levels cost is one of the causes
   add_volume_reading_flags(verb, flags.scene.volume);
   verb.add_option("--map", flags.scene.volume.map,
                   "VALUE:EMISSION,... that the set was built with, if it rises and falls")

@@ -78,11 +78,11 @@ Value value_of(std::string_view flag, const std::optional<Value>& value, std::st
               fmt::format("{}: found '{}', expected {}", flag, found, expected));
 }
 
-bool smooth_layers(const DrawFlags& draw) {
-  if (draw.layers == "smooth") return true;
-  if (draw.layers == "flat") return false;
-  throw Error(ErrorCode::BadArgument,
-              fmt::format("--layers: found '{}', expected smooth or flat", draw.layers));
+/// Whether layers of that name are smooth, if there are any.
+std::optional<bool> smooth_layers(std::string_view name) {
+  if (name == "smooth") return true;
+  if (name == "flat") return false;
+  return std::nullopt;
 }
 
 Views views_of(const ExactFlags& flags, const DrawFlags& draw, const VolumeFacts& volume,
@@ -247,7 +247,6 @@ void add_draw_flags(CLI::App& verb, DrawFlags& flags) {
 
 RenderOptions render_options(const ExactFlags& flags, const DrawFlags& draw, std::size_t shells) {
   RenderOptions options;
-  options.smooth_layers = smooth_layers(draw);
   options.mode = picture_mode(flags.picture);
   options.slab = slab(flags.camera);
   options.cue = depth_cue(flags.scene);
@@ -255,6 +254,8 @@ RenderOptions render_options(const ExactFlags& flags, const DrawFlags& draw, std
   options.depth = value_of("--depth-buffer", depth_format(draw.depth_buffer), draw.depth_buffer,
                            "16, 24 or 32f");
   options.target = value_of("--target", target_format(draw.target), draw.target, "8, 16f or 32f");
+  options.smooth_layers =
+      value_of("--layers", smooth_layers(draw.layers), draw.layers, "smooth or flat");
   options.occlusion =
       value_of("--occlusion", occlusion(draw.occlusion), draw.occlusion, "auto, passes or texture");
   return options;
