@@ -193,6 +193,7 @@ void draw_views(ShellRenderer& renderer, const ExactFlags& flags, const DrawFlag
 SceneFacts facts_of(const ShellFileInfo& info, std::span<const Tool> tools) {
   SceneFacts facts;
   facts.center_mm = info.set.center_mm;
+  facts.volume = info.set.volume;
   for (std::size_t i = 0; i < info.levels.size(); ++i) {
     const ShellFileLevel& level = info.levels[i];
     facts.shells.push_back({info.set.shells[i].representative,

@@ -60,13 +60,17 @@ struct QuantizationGrid {
 /// What the shells were made from: enough to place them and to recognise the volume, nothing that
 /// names a file or a patient.
 struct VolumeFacts {
-  glm::i64vec3 dims{1};
+  glm::i64vec3 dims{0};  ///< 0: no volume is stated
   glm::dmat4 world_from_voxel{1.0};
   ScalarType type = ScalarType::U8;
   double slope = 1.0;
   double intercept = 0.0;
   std::uint64_t checksum = 0;  ///< of the stored samples, see docs/shell_file.md
 };
+
+inline bool is_stated(const VolumeFacts& volume) noexcept {
+  return volume.dims.x > 0 && volume.dims.y > 0 && volume.dims.z > 0;
+}
 
 /// A nest of emission shells of one volume, outermost (lowest level) first.
 struct ShellSet {

@@ -17,6 +17,14 @@ VoxelBox voxel_box(const glm::i64vec3& dims) {
   return box;
 }
 
+glm::dmat4 voxel_from_local(const glm::i64vec3& dims, const glm::dmat4& world_from_voxel) {
+  const VoxelBox box = voxel_box(dims);
+  glm::dmat4 local_from_voxel(glm::dmat3{world_from_voxel});
+  const glm::dvec3 center = 0.5 * (box.lo + box.hi);
+  local_from_voxel[3] = glm::dvec4(-glm::dvec3(local_from_voxel * glm::dvec4(center, 0.0)), 1.0);
+  return glm::inverse(local_from_voxel);
+}
+
 BoundingSphere bounding_sphere(const glm::i64vec3& dims, const glm::dmat4& world_from_voxel) {
   const VoxelBox box = voxel_box(dims);
   const glm::dvec3 center_voxel = 0.5 * (box.lo + box.hi);

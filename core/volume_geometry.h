@@ -17,6 +17,12 @@ struct VoxelBox {
 /// of one sample spans [-1/2, 1/2], one spacing.
 VoxelBox voxel_box(const glm::i64vec3& dims);
 
+/// Takes LPS millimetres relative to the centre of the volume's box, the frame of a shell's
+/// surface, to voxel coordinates. The matrix's translation never enters: a volume far from the
+/// origin loses no digits.
+/// @pre  the matrix is regular
+glm::dmat4 voxel_from_local(const glm::i64vec3& dims, const glm::dmat4& world_from_voxel);
+
 /// A sphere in LPS millimetres.
 struct BoundingSphere {
   glm::dvec3 center_mm{0.0};

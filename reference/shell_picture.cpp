@@ -8,9 +8,12 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <optional>
 #include <span>
 
 #include "core/error.h"
+#include "core/volume_border.h"
+#include "core/volume_silhouette.h"
 #include "reference/shell_pixels.h"
 #include "reference/smooth_normals.h"
 #include "reference/triangle_bins.h"
@@ -81,9 +84,13 @@ class ShellPainter {
         camera_(camera),
         options_(options),
         shells_(shown_shells(set, options.hidden)),
-        bounds_(bounds_of(shells_, center_mm_)),
         footprint_(camera) {
+    cut_at_border(set);
+    bounds_ = bounds_of(shells_, center_mm_);
     if (!(bounds_.lo_mm.x <= bounds_.hi_mm.x)) shells_.clear();
+    if (options.mode != PictureMode::Iso && is_stated(set.volume)) {
+      columns_ = volume_silhouette(camera, set.volume.dims, set.volume.world_from_voxel);
+    }
   }
 
   Picture paint(const ProgressCallback& progress) {
@@ -101,11 +108,20 @@ class ShellPainter {
   }
 
  private:
+  void cut_at_border(const ShellSet& set) {
+    within_.resize(shells_.size());
+    tbb::parallel_for(std::size_t{0}, shells_.size(), [&](std::size_t i) {
+      within_[i] = within_border(set, *shells_[i].surface);
+      if (within_[i]) shells_[i].surface = &*within_[i];
+    });
+  }
+
   void paint_rows(int first, int end, Picture& picture, ProgressMeter& meter) {
     first_row_ = first;
     end_row_ = end;
     pixels_ = make_shell_pixels(camera_, options_.cue, options_.slab, bounds_, options_.tools,
                                 picture.tools ? &*picture.tools : nullptr, first, end);
+    if (!columns_.empty()) empty_outside_box();
     switch (options_.mode) {
       case PictureMode::Max: paint_max(meter); break;
       case PictureMode::Sum: paint_sum(meter); break;
@@ -116,6 +132,18 @@ class ShellPainter {
         picture.volume.pixels.begin() + static_cast<std::ptrdiff_t>(first) * picture.volume.width;
     std::ranges::transform(pixels_, out,
                            [](const ShellPixel& pixel) { return static_cast<float>(pixel.value); });
+  }
+
+  /// Rays that miss the volume's box meet nothing.
+  void empty_outside_box() {
+    for (int y = first_row_; y < end_row_; ++y) {
+      const PixelSpan& span = columns_[static_cast<std::size_t>(y)];
+      ShellPixel* row =
+          pixels_.data() + static_cast<std::ptrdiff_t>(y - first_row_) * camera_.size.x;
+      for (int x = 0; x < camera_.size.x; ++x) {
+        if (x < span.first || x >= span.end) row[x].interval = {0.0, 0.0};
+      }
+    }
   }
 
   void paint_max(ProgressMeter& meter) {
@@ -245,10 +273,12 @@ class ShellPainter {
   glm::dvec3 center_mm_;
   const Camera& camera_;
   const ShellPictureOptions& options_;
-  std::vector<ShownShell> shells_;  ///< outermost first
+  std::vector<ShownShell> shells_;                   ///< outermost first
+  std::vector<std::optional<TriangleMesh>> within_;  ///< of those, where they differ
   ShellBounds bounds_;
   PixelFootprint footprint_;
   std::vector<std::vector<glm::dvec3>> normals_;  ///< of each shell; for iso
+  std::vector<PixelSpan> columns_;                ///< that meet the volume's box; empty: all
   int first_row_ = 0;                             ///< of the pixels at hand
   int end_row_ = 0;
   std::vector<ShellPixel> pixels_;

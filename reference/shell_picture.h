@@ -37,6 +37,9 @@ struct ShellPictureOptions {
 /// - iso:   the headlight on the first crossing, with smooth normals (angle-weighted at vertices,
 ///          interpolated), times beta.
 ///
+/// A ray that misses the box of the set's volume, where one is stated, shows nothing but for iso:
+/// caps lie on their grid, up to about a step beyond it (docs/decisions/028-exact-borders.md).
+///
 /// The surfaces are taken as they are; for sums, and rays that start inside, they should be closed.
 /// Slabs do not cut tools. Uses all cores, a few bytes a triangle and about 120 bytes a pixel (of
 /// half a million at a time); the same bytes for any number of threads.

@@ -74,6 +74,9 @@ Plan make_plan(const SceneFacts& scene, const Camera& camera, const RenderOption
   plan_shells(planning);
   planning::note_limits(planning);
   plan.rays = drawn_span(planning);
+  if (options.mode != PictureMode::Iso && is_stated(scene.volume)) {
+    plan.columns = volume_silhouette(camera, scene.volume.dims, scene.volume.world_from_voxel);
+  }
   if (!plan.normals) planning.leave_out("normals", "nothing is lit");
   return plan;
 }

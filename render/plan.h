@@ -7,6 +7,7 @@
 
 #include "core/camera.h"
 #include "core/dequantization.h"
+#include "core/volume_silhouette.h"
 #include "render/projection.h"
 #include "render/ray_frame.h"
 #include "render/render_options.h"
@@ -99,6 +100,9 @@ struct Plan {
   std::vector<float> emission_of_rank{0.0F};
   /// Between which a maximum is estimated once it is drawn; empty: it stays as it is.
   std::vector<LayerRange> layers;
+  /// The columns of each row whose rays meet the volume's box: the others are black, whatever was
+  /// drawn. Empty: all columns show.
+  std::vector<PixelSpan> columns;
 };
 
 /// Indices of the shells that the plan draws, ascending: what has to be decoded and uploaded.
@@ -115,6 +119,9 @@ std::vector<std::uint32_t> shells_drawn(const Plan& plan);
 /// - **sum** ([H96] eq. 2): all crossings, clamped to start and end, add up.
 /// - **count**: all crossings between start and end add r_k.
 /// - **iso**: the nearest crossing between start and end, lit.
+///
+/// A ray that misses the box of the volume, where one is stated, shows nothing but for iso: caps
+/// lie on their grid, up to about a step beyond the box (docs/decisions/028-exact-borders.md).
 ///
 /// Left out, each only where the picture stays what it is (`PlanRules` has a switch for each):
 ///

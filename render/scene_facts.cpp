@@ -19,6 +19,7 @@ Box bounds_of(std::span<const glm::vec3> positions) {
 SceneFacts scene_facts(const ShellSet& set, std::span<const Tool> tools) {
   SceneFacts facts;
   facts.center_mm = set.center_mm;
+  facts.volume = set.volume;
   facts.shells.reserve(set.shells.size());
   for (const Shell& shell : set.shells) {
     facts.shells.push_back({shell.representative, shell.surface.triangles.size(),

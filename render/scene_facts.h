@@ -42,6 +42,7 @@ struct SceneFacts {
   glm::dvec3 center_mm{0.0};  ///< LPS; bounds and positions are relative to it
   std::vector<ShellFacts> shells;
   std::vector<ToolFacts> tools = {};
+  VolumeFacts volume = {};  ///< beyond its box nothing shows, if one is stated
 };
 
 /// The facts of a set in memory. Looks at every position once.

@@ -8,10 +8,13 @@ namespace nacre {
 
 void finish_picture(const Plan& plan, Picture& picture, std::vector<float>& memory,
                     const RowLoop& rows) {
+  black_outside(plan.columns, picture.volume);
   if (plan.layers.empty()) return;
   std::span<const std::uint8_t> fixed;
   if (picture.tools) fixed = picture.tools->covered;
   dequantize(picture.volume, plan.layers, fixed, rows, memory);
+  // The background beside a cut vessel is estimated to be lit, too.
+  black_outside(plan.columns, picture.volume);
 }
 
 void check_upload(const ShellSet& set, const SceneFacts& facts,

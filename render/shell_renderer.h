@@ -81,8 +81,9 @@ class ShellRenderer {
   ShellRenderer& operator=(ShellRenderer&&) = default;
 };
 
-/// What is done to a picture once it is drawn: a maximum is estimated between its levels, where
-/// that is planned. The background stays black where a tool is seen.
+/// What is done to a picture once it is drawn: what lies beyond the volume's box goes, and a
+/// maximum is estimated between its levels, where that is planned. The background stays black where
+/// a tool is seen, and beyond the box.
 /// @param memory  as in `dequantize`: kept by a renderer from picture to picture
 void finish_picture(const Plan& plan, Picture& picture, std::vector<float>& memory,
                     const RowLoop& rows = {});

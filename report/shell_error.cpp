@@ -27,8 +27,9 @@ void extract_anew(const Volume& volume, ShellSet& set, const ProgressCallback& p
 }
 
 void snap_all(ShellSet& set) {
+  const BorderRounding border(set);
   tbb::parallel_for(std::size_t{0}, set.shells.size(), [&](std::size_t k) {
-    set.shells[k].surface = snap(set.shells[k].surface, *set.grid).mesh;
+    set.shells[k].surface = snap(set.shells[k].surface, *set.grid, &border).mesh;
   });
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <glm/matrix.hpp>
 
 #include "core/quantization_grid.h"
 #include "core/volume_geometry.h"
@@ -11,12 +10,9 @@
 namespace nacre {
 
 BorderPlanes::BorderPlanes(const ShellSet& set)
-    : box_(voxel_box(set.volume.dims)), border_voxels_(kOnBorderVoxels) {
-  // The translation never enters, as in `TrilinearField`.
-  glm::dmat4 local_from_voxel(glm::dmat3(set.volume.world_from_voxel));
-  const glm::dvec3 center = 0.5 * (box_.lo + box_.hi);
-  local_from_voxel[3] = glm::dvec4(-glm::dvec3(local_from_voxel * glm::dvec4(center, 0.0)), 1.0);
-  voxel_from_local_ = glm::inverse(local_from_voxel);
+    : box_(voxel_box(set.volume.dims)),
+      voxel_from_local_(voxel_from_local(set.volume.dims, set.volume.world_from_voxel)),
+      border_voxels_(kOnBorderVoxels) {
   const double half_step = set.grid ? 0.5 * step_mm(*set.grid) : 0.0;
   for (int axis = 0; axis < 3; ++axis) {
     const glm::dvec3 moved = half_step * glm::abs(glm::dvec3(voxel_from_local_[axis]));

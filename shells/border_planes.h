@@ -12,8 +12,9 @@ namespace nacre {
 /// other.
 class BorderPlanes {
  public:
-  /// @param set  its volume, and its grid if it was snapped: vertices then lie up to half a step
-  ///             along each axis off the plane
+  /// @param set  its volume, and its grid if it was snapped: vertices then lie anywhere beyond the
+  ///             plane (`BorderRounding`), or up to half a step along each axis within, where they
+  ///             had to make way or the set is an early one
   explicit BorderPlanes(const ShellSet& set);
 
   bool contain(const glm::vec3& p_mm) const { return planes_at(p_mm) != 0; }

@@ -155,12 +155,14 @@ bool is_simplifying(const BuildOptions& options) {
 }
 
 /// What simplification must keep of a shell, but for its tolerances.
-SimplifyOptions bounds_of(const TrilinearField& field, const Volume& volume, const ShellSet& set) {
+SimplifyOptions bounds_of(const TrilinearField& field, const Volume& volume, const ShellSet& set,
+                          const BorderRounding& border) {
   const glm::dvec3 spacing = spacing_mm(volume.world_from_voxel);
   SimplifyOptions bounds;
   bounds.samples_from_mm = field.voxel_from_mm();
   bounds.spacing_mm = std::min({spacing.x, spacing.y, spacing.z});
   bounds.grid = set.grid;
+  bounds.border = &border;
   return bounds;
 }
 
@@ -191,10 +193,11 @@ TriangleMesh simplify_on_level(const TriangleMesh& contour, const LevelField& of
 
 void simplify_shells(const Volume& volume, const EmissionMap& emission, const BuildOptions& options,
                      std::span<const std::size_t> triangles,
-                     const std::function<TriangleMesh(std::size_t)>& source, ShellSet& set) {
+                     const std::function<TriangleMesh(std::size_t)>& source,
+                     const BorderRounding& border, ShellSet& set) {
   const auto extracted_triangles = std::reduce(triangles.begin(), triangles.end());
   const TrilinearField field(volume);
-  const SimplifyOptions common = bounds_of(field, volume, set);
+  const SimplifyOptions common = bounds_of(field, volume, set, border);
   const std::size_t memory = working_memory(volume);
   for_each_shell(triangles, memory, options.progress, "simplify", [&](std::size_t k) {
     Shell& shell = set.shells[k];
@@ -219,10 +222,10 @@ void simplify_shells(const Volume& volume, const EmissionMap& emission, const Bu
 std::vector<TriangleMesh> coarser_copies(const Volume& volume, const EmissionMap& emission,
                                          const BuildOptions& options,
                                          std::span<const std::size_t> triangles,
-                                         const ShellSet& set) {
+                                         const BorderRounding& border, const ShellSet& set) {
   std::vector<TriangleMesh> copies(set.shells.size());
   const TrilinearField field(volume);
-  const SimplifyOptions common = bounds_of(field, volume, set);
+  const SimplifyOptions common = bounds_of(field, volume, set, border);
   const CoarsenOptions bounds{.error_tolerance = options.coarse_tolerance,
                               .samples_from_mm = common.samples_from_mm,
                               .spacing_mm = common.spacing_mm};
@@ -231,7 +234,7 @@ std::vector<TriangleMesh> coarser_copies(const Volume& volume, const EmissionMap
     const Shell& shell = set.shells[k];
     if (shell.surface.triangles.empty()) return;
     const LevelField off_level(field, emission, shell.emission);
-    copies[k] = snap(coarsen(shell.surface, off_level, bounds), *set.grid).mesh;
+    copies[k] = snap(coarsen(shell.surface, off_level, bounds), *set.grid, &border).mesh;
   });
   return copies;
 }
@@ -240,6 +243,7 @@ std::vector<TriangleMesh> coarser_copies(const Volume& volume, const EmissionMap
 struct SnapEnds {
   std::function<TriangleMesh(std::size_t k)> source;
   const SurfaceSink& sink;
+  const BorderRounding& border;
 };
 
 /// @param set  its surfaces are those the sink does not take
@@ -249,7 +253,7 @@ void snap_shells(std::span<const std::size_t> triangles, std::size_t memory, con
   const Stopwatch watch;
   for_each_shell(triangles, memory, options.progress, "snap", [&](std::size_t k) {
     const Stopwatch snapping;
-    SnappedSurface snapped = snap(ends.source(k), *set.grid);
+    SnappedSurface snapped = snap(ends.source(k), *set.grid, &ends.border);
     parts[k].snapped = snapped.report;
     parts[k].triangles = snapped.mesh.triangles.size();
     parts[k].snap_seconds = snapping.seconds();
@@ -283,6 +287,7 @@ BuiltShells build(const Volume& volume, const EmissionMap& emission, const Build
   const GridChoice grid =
       choose_grid(volume.dims, volume.world_from_voxel, {.bits = options.quantization_bits});
   built.set.grid = grid.grid;
+  const BorderRounding border(built.set);
   BuildReport& report = built.report;
   report.step_spacings = grid.step_spacings;
   report.is_grid_coarse = grid.is_coarse;
@@ -296,11 +301,11 @@ BuiltShells build(const Volume& volume, const EmissionMap& emission, const Build
   const std::size_t memory = working_memory(volume);
   Pruner pruner(surfaces.size(), {.min_component_mm3 = options.min_component_mm3,
                                   .prune_inner = options.prune_inner});
-  SnapEnds ends{[&](std::size_t k) { return pruner.prune(k, surfaces.take(k)); }, sink};
+  SnapEnds ends{[&](std::size_t k) { return pruner.prune(k, surfaces.take(k)); }, sink, border};
 
   if (is_simplifying(options)) {
     const Stopwatch simplifying;
-    simplify_shells(volume, emission, options, triangles, ends.source, built.set);
+    simplify_shells(volume, emission, options, triangles, ends.source, border, built.set);
     report.simplify_seconds = simplifying.seconds();
     for (std::size_t k = 0; k < triangles.size(); ++k) {
       triangles[k] = built.set.shells[k].surface.triangles.size();
@@ -309,7 +314,7 @@ BuiltShells build(const Volume& volume, const EmissionMap& emission, const Build
     const std::size_t left = std::reduce(triangles.begin(), triangles.end());
     if (options.coarse_tolerance > 0.0 && left > options.coarse_above_triangles) {
       const Stopwatch coarsening;
-      built.copies = coarser_copies(volume, emission, options, triangles, built.set);
+      built.copies = coarser_copies(volume, emission, options, triangles, border, built.set);
       report.coarsen_seconds = coarsening.seconds();
     }
   }

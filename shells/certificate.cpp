@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/image.h"
 #include "core/quantization_grid.h"
+#include "core/volume_silhouette.h"
 #include "reference/exact_picture.h"
 #include "reference/exact_walk.h"
 #include "reference/shell_picture.h"
@@ -83,8 +84,11 @@ CameraOptions camera_of(const CertificateView& view, const glm::ivec2& size) {
 class Certifier::Pictures {
  public:
   /// @param maxima_only  the sums' pictures are then without pixels
-  Pictures(const ExactWalk& walk, const Camera& camera, bool maxima_only)
+  /// @param columns  that meet the volume's box
+  Pictures(const ExactWalk& walk, const Camera& camera, std::vector<PixelSpan> columns,
+           bool maxima_only)
       : camera_(camera),
+        columns_(std::move(columns)),
         exact_max_(exact_picture(walk, camera, {.mode = PictureMode::Max}).volume),
         exact_sum_(maxima_only ? Image()
                                : exact_picture(walk, camera, {.mode = PictureMode::Sum}).volume) {
@@ -113,6 +117,7 @@ class Certifier::Pictures {
   PixelSums max_smooth(std::span<const LayerRange> layers) const {
     Image smooth = shown_max_;
     dequantize(smooth, layers);
+    black_outside(columns_, smooth);
     return beside_exact(smooth);
   }
 
@@ -134,6 +139,7 @@ class Certifier::Pictures {
   }
 
   Camera camera_;
+  std::vector<PixelSpan> columns_;
   Image exact_max_;
   Image exact_sum_;
   Image shown_max_;
@@ -178,7 +184,9 @@ Certifier::Certifier(const Volume& volume, const EmissionMap& emission,
   const ExactWalk walk(volume, emission);
   ProgressMeter progress(options_.progress, "exact pictures", options.views.size());
   for (const CertificateView& view : options.views) {
-    pictures_.emplace_back(walk, make_camera(camera_of(view, options.size), sphere),
+    const Camera camera = make_camera(camera_of(view, options.size), sphere);
+    pictures_.emplace_back(walk, camera,
+                           volume_silhouette(camera, volume.dims, volume.world_from_voxel),
                            options.maxima_only);
     progress.advance();
   }
@@ -196,6 +204,7 @@ void Certifier::add(const ShellSet& set, std::vector<Shell>&& shells) {
   for (const Shell& shell : shells) levels_.push_back({shell.emission, shell.representative});
   ShellSet part;
   part.center_mm = set.center_mm;
+  part.volume = set.volume;
   part.shells = std::move(shells);
   // A part's sums begin at 0, where those of the shells before it end.
   const double summed = sum_representative(part.shells.back());

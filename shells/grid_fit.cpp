@@ -60,19 +60,27 @@ glm::dvec3 best_point(const QuantizationGrid& grid, const Star& star, const Star
 
 void fit_to_grid(const ClosedMesh& mesh, const SurfaceField& field,
                  const glm::dmat3& samples_from_mm, const QuantizationGrid& grid,
-                 std::span<glm::dvec3> positions, double volume_weight) {
+                 std::span<glm::dvec3> positions, double volume_weight,
+                 const BorderRounding* border) {
   Star star;
   StarFit fit(field, samples_from_mm, volume_weight);
   std::vector<double> allowed;
+  // These wait in their planes, so that what the others are fitted to is within the volume.
+  const auto is_on_border = [&](std::uint32_t v) {
+    return border != nullptr && border->is_on_border(positions[v]);
+  };
   const int rounds = step_samples(grid, samples_from_mm) > kCoarseStep ? 2 : 1;
   for (int round = 0; round < rounds; ++round) {
     for (std::uint32_t v = 0; v < positions.size(); ++v) {
-      if (mesh.outgoing(v) == ClosedMesh::kNone) continue;
+      if (mesh.outgoing(v) == ClosedMesh::kNone || is_on_border(v)) continue;
       star_of_vertex(mesh, positions, v, star);
       allowed.assign(star.triangles.size(), std::numeric_limits<double>::infinity());
       fit.sample(star, positions[v], allowed);
       positions[v] = best_point(grid, star, fit, positions[v]);
     }
+  }
+  for (std::uint32_t v = 0; v < positions.size(); ++v) {
+    if (is_on_border(v)) positions[v] = grid_position(grid, border->index(positions[v]));
   }
 }
 

@@ -14,9 +14,10 @@ namespace {
 
 constexpr int kUsualBits = 12;
 constexpr int kFloatBits = 24;
-constexpr int kSafeBits = 20;         // beyond these the step must be a power of two
-constexpr int kMaxStepBits = 12;      // of m in m * 2^e; more would gain under a thousandth
-constexpr double kMarginSteps = 2.0;  // at each side, for vertices that have to make way
+constexpr int kSafeBits = 20;     // beyond these the step must be a power of two
+constexpr int kMaxStepBits = 12;  // of m in m * 2^e; more would gain under a thousandth
+// At each side, for vertices that have to make way, and those that go outwards.
+constexpr double kMarginSteps = 3.0;
 
 /// Half the extent of the volume's box along each LPS axis.
 glm::dvec3 half_extent_mm(const glm::i64vec3& dims, const glm::dmat4& world_from_voxel) {

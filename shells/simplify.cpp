@@ -236,7 +236,7 @@ void EdgeCollapser::run() {
 
 void EdgeCollapser::settle_on_grid() {
   fit_to_grid(mesh_, options_.field, options_.samples_from_mm, *options_.grid, positions_,
-              options_.volume_weight);
+              options_.volume_weight, options_.border);
 }
 
 }  // namespace

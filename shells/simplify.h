@@ -6,6 +6,7 @@
 
 #include "core/shell_set.h"
 #include "core/triangle_mesh.h"
+#include "shells/border_rounding.h"
 #include "shells/star_fit.h"
 #include "shells/surface_field.h"
 
@@ -32,6 +33,8 @@ struct SimplifyOptions {
   /// Vertices end on this grid, at those of its points from where the triangles follow the field
   /// best: an error that rounding each coordinate by itself would make several times larger.
   std::optional<QuantizationGrid> grid = {};
+  /// For that grid; must outlive the call. Null: there are no border planes.
+  const BorderRounding* border = nullptr;
 
   /// Stop at this many triangles; 0: only at the bounds.
   std::size_t target_triangles = 0;

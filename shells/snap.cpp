@@ -33,7 +33,7 @@ constexpr int kFarReach = 6;
 /// The passes of snapping one surface; each leaves a closed manifold.
 class Snapper {
  public:
-  Snapper(const TriangleMesh& surface, const QuantizationGrid& grid);
+  Snapper(const TriangleMesh& surface, const QuantizationGrid& grid, const BorderRounding* border);
 
   void find_components();
   void collapse_coincident_edges();
@@ -72,13 +72,16 @@ class Snapper {
   SnapReport report_;
 };
 
-Snapper::Snapper(const TriangleMesh& surface, const QuantizationGrid& grid)
+Snapper::Snapper(const TriangleMesh& surface, const QuantizationGrid& grid,
+                 const BorderRounding* border)
     : surface_(surface),
       grid_(grid),
       mesh_(surface.triangles, surface.positions.size()),
       points_(mesh_.vertex_count()),
       occupied_(grid.bits) {
-  for (std::uint32_t v = 0; v < points_.size(); ++v) points_[v] = nearest_index(grid_, original(v));
+  for (std::uint32_t v = 0; v < points_.size(); ++v) {
+    points_[v] = border != nullptr ? border->index(original(v)) : nearest_index(grid_, original(v));
+  }
 }
 
 /// Makes the ends of an edge one vertex where they share a grid point, unless that would pinch the
@@ -311,13 +314,14 @@ SnapReport& SnapReport::operator+=(const SnapReport& other) {
   return *this;
 }
 
-SnappedSurface snap(const TriangleMesh& surface, const QuantizationGrid& grid) {
+SnappedSurface snap(const TriangleMesh& surface, const QuantizationGrid& grid,
+                    const BorderRounding* border) {
   if (!is_exact(grid)) {
     throw Error(ErrorCode::BadArgument,
                 "quantisation: found a grid whose points are not floats, "
                 "expected an exact one");
   }
-  Snapper snapper(surface, grid);
+  Snapper snapper(surface, grid, border);
   snapper.find_components();
   // What vanishes on rounding goes at once, what turns over on making way, at the end.
   snapper.drop_vanished_components();

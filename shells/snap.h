@@ -4,6 +4,7 @@
 
 #include "core/shell_set.h"
 #include "core/triangle_mesh.h"
+#include "shells/border_rounding.h"
 
 namespace nacre {
 
@@ -32,10 +33,14 @@ struct SnappedSurface {
 ///
 /// @param surface  closed, oriented, manifold; positions within the grid, in its frame
 /// @param grid     exact, see core/quantization_grid.h
+/// @param border   for that grid: what lies in the volume's border planes goes outwards (but for
+///                 single vertices that have to make way); null: everything goes to the nearest
+///                 point
 /// @throws Error   BadArgument if the surface is not closed and manifold, the grid is not exact, or
 ///                 it is too coarse to hold the surface
 ///
 /// O(triangles). The order of vertices and triangles is that of the surface.
-SnappedSurface snap(const TriangleMesh& surface, const QuantizationGrid& grid);
+SnappedSurface snap(const TriangleMesh& surface, const QuantizationGrid& grid,
+                    const BorderRounding* border = nullptr);
 
 }  // namespace nacre

@@ -33,8 +33,8 @@ struct SurfaceEmission {
   }
 };
 
-/// How near the border plane the vertices on it are after snapping, in voxels: half a step along
-/// each axis, of a matrix whose axes may be oblique.
+/// How far within the border plane the vertices on it are after snapping at most, in voxels: half a
+/// step along each axis, of a matrix whose axes may be oblique. Most lie beyond (`BorderRounding`).
 double border_voxels(const TrilinearField& field, double step_mm) noexcept;
 
 /// Whether a triangle lies within one border plane of the volume, where shells are capped.

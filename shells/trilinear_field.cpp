@@ -47,11 +47,7 @@ TrilinearField::TrilinearField(const Volume& volume)
   if (!std::isfinite(handed) || handed == 0.0) {
     throw Error(ErrorCode::BadArgument, "volume: found a singular matrix, expected a regular one");
   }
-  // The translation never enters: a volume far from the origin loses nothing.
-  glm::dmat4 local_from_voxel(glm::dmat3(volume.world_from_voxel));
-  const glm::dvec3 center = 0.5 * (box_.lo + box_.hi);
-  local_from_voxel[3] = glm::dvec4(-glm::dvec3(local_from_voxel * glm::dvec4(center, 0.0)), 1.0);
-  voxel_from_local_ = glm::inverse(local_from_voxel);
+  voxel_from_local_ = nacre::voxel_from_local(volume.dims, volume.world_from_voxel);
 }
 
 template <class T>

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/volume_border.h"
 #include "render/cpu/detail_levels.h"
 #include "render/cpu/plan_drawing.h"
 #include "render/cpu/tool_meshes.h"
@@ -89,8 +90,10 @@ class CpuRenderer::Drawing {
     shells_.assign(set.shells.size(), {});
     tbb::parallel_for(std::size_t{0}, shells.size(), [&](std::size_t i) {
       const bool all = options_.detail_px <= 0.0;
+      const TriangleMesh& surface = set.shells[shells[i]].surface;
+      const std::optional<TriangleMesh> within = within_border(set, surface);
       shells_[shells[i]] =
-          detail_levels(set.shells[shells[i]].surface,
+          detail_levels(within ? *within : surface,
                         all ? std::numeric_limits<std::size_t>::max() : kLeastTriangles);
     });
     scene_ = facts;

@@ -4,8 +4,10 @@
 #include <fmt/core.h>
 
 #include <limits>
+#include <optional>
 
 #include "core/error.h"
+#include "core/volume_border.h"
 #include "render/vertex_normals.h"
 
 namespace nacre {
@@ -74,7 +76,8 @@ void ShellBuffers::copy(const ShellSet& set) {
   check_gl(*gl_, "room for the shells");
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     if (!parts_[i].held) continue;
-    const TriangleMesh& surface = set.shells[i].surface;
+    const std::optional<TriangleMesh> within = within_border(set, set.shells[i].surface);
+    const TriangleMesh& surface = within ? *within : set.shells[i].surface;
     copy_vertices(positions_, parts_[i], surface.positions);
     if (normals_) copy_vertices(*normals_, parts_[i], vertex_normals(surface));
     gl_->buffer_sub_data(GL_ELEMENT_ARRAY_BUFFER,

@@ -19,9 +19,10 @@
 namespace nacre {
 namespace {
 
-constexpr int kDense = 6;               // parts of a triangle's side
-constexpr double kBetween = 1.5;        // error between samples, of the bound
-constexpr double kBorderVoxels = 0.02;  // grid points are that far off a border plane at most
+constexpr int kDense = 6;         // parts of a triangle's side
+constexpr double kBetween = 1.5;  // error between samples, of the bound
+constexpr double kBorderVoxels =
+    0.02;  // grid points within a border plane are that far off at most
 
 /// A vessel that bends and thins out to half a voxel, in front of a slope.
 Volume vessel() {
