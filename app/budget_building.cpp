@@ -107,7 +107,7 @@ class Trials {
   double measure() {
     certifier_.restart();
     add_shells(at_hand_.compressed, reporter_.progress(), certifier_);
-    return certifier_.result().max_smooth.rmse;
+    return certifier_.result().max_fine.rmse;
   }
 
   void keep() { best_ = std::move(at_hand_); }

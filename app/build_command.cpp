@@ -159,7 +159,7 @@ void run_build(const BuildFlags& flags) {
   std::optional<CoarseShells> copies = built.coarse;
   if (copies && !figures.coarse_error.empty()) {
     copies->max_error_json = figures.coarse_error.at("max").dump();
-    copies->max_smooth_error_json = figures.coarse_error.at("max_smooth").dump();
+    copies->max_fine_error_json = figures.coarse_error.at("max_fine").dump();
     copies->sum_error_json = figures.coarse_error.at("sum").dump();
   }
   const std::vector<std::byte> bytes = assemble_shell_set(

@@ -43,7 +43,7 @@ std::optional<std::string> error_words(const ordered_json& error) {
 }
 
 void say_copies_error(const ordered_json& coarse, Reporter& reporter) {
-  say_error("copies       max, smooth layers:", member(coarse, "max_smooth"), "", reporter);
+  say_error("copies       max, fine layers:", member(coarse, "max_fine"), "", reporter);
   say_error("copies       max:", member(coarse, "max"), "", reporter);
   say_error("copies       sum:", member(coarse, "sum"), "", reporter);
 }
@@ -57,7 +57,7 @@ void say_certificate(const ordered_json& certificate, Reporter& reporter) {
     over = fmt::format(" ({} views of {} x {})", views.size(), size[0].get<long long>(),
                        size[1].get<long long>());
   }
-  say_error("certified    max, smooth layers:", member(certificate, "max_smooth"), over, reporter);
+  say_error("certified    max, fine layers:", member(certificate, "max_fine"), over, reporter);
   say_error("certified    max:", member(certificate, "max"), over, reporter);
   say_error("certified    sum:", member(certificate, "sum"), "", reporter);
   const ordered_json surfaces = member(certificate, "surfaces");

@@ -17,18 +17,20 @@ ordered_json parsed(const std::string& text) {
   return text.empty() ? ordered_json() : ordered_json::parse(text);
 }
 
-const std::string& error_of(const DrawnCopies& drawn, PictureMode mode, bool smooth) {
+/// Empty where it is not measured.
+std::string error_of(const DrawnCopies& drawn, PictureMode mode, Layers layers) {
   if (mode == PictureMode::Sum) return drawn.sum_error_json;
-  return smooth ? drawn.max_smooth_error_json : drawn.max_error_json;
+  if (layers == Layers::Smooth) return {};
+  return layers == Layers::Fine ? drawn.max_fine_error_json : drawn.max_error_json;
 }
 
-std::string stated_error(const DrawnCopies& drawn, PictureMode mode, bool smooth) {
+std::string stated_error(const DrawnCopies& drawn, PictureMode mode, Layers layers) {
   if (mode != PictureMode::Max && mode != PictureMode::Sum) {
     return "error of such pictures: not measured";
   }
   return fmt::format(
       "error of {}: {}", mode == PictureMode::Sum ? "sums" : "maxima",
-      error_words(parsed(error_of(drawn, mode, smooth))).value_or("not stated by the file"));
+      error_words(parsed(error_of(drawn, mode, layers))).value_or("not stated by the file"));
 }
 
 }  // namespace
@@ -51,23 +53,23 @@ DrawnCopies take_copies(const std::string& path, ShellFileInfo& info) {
   }
   drawn.tolerance = info.coarse->tolerance;
   drawn.max_error_json = info.coarse->max_error_json;
-  drawn.max_smooth_error_json = info.coarse->max_smooth_error_json;
+  drawn.max_fine_error_json = info.coarse->max_fine_error_json;
   drawn.sum_error_json = info.coarse->sum_error_json;
   return drawn;
 }
 
-void say_copies(const DrawnCopies& drawn, PictureMode mode, bool smooth, Reporter& reporter) {
+void say_copies(const DrawnCopies& drawn, PictureMode mode, Layers layers, Reporter& reporter) {
   reporter.say(fmt::format(
       "draws    coarse copies of {} shells (emission error {:.4g}), and {} shells that have none; "
       "{}",
-      drawn.copies, drawn.tolerance, drawn.shells, stated_error(drawn, mode, smooth)));
+      drawn.copies, drawn.tolerance, drawn.shells, stated_error(drawn, mode, layers)));
 }
 
-ordered_json copies_json(const DrawnCopies& drawn, PictureMode mode, bool smooth) {
+ordered_json copies_json(const DrawnCopies& drawn, PictureMode mode, Layers layers) {
   ordered_json json = {
       {"copies", drawn.copies}, {"shells", drawn.shells}, {"tolerance", drawn.tolerance}};
   if (mode == PictureMode::Max) {
-    json[smooth ? "max_smooth" : "max"] = parsed(error_of(drawn, mode, smooth));
+    json[layers == Layers::Flat ? "max" : "max_fine"] = parsed(error_of(drawn, mode, layers));
   }
   if (mode == PictureMode::Sum) json["sum"] = parsed(drawn.sum_error_json);
   return json;

@@ -182,8 +182,8 @@ ordered_json coarse_json(const ShellFileCoarse& coarse) {
   ordered_json json = {
       {"tolerance", coarse.tolerance}, {"triangles", size.triangles}, {"bytes", size.bytes}};
   if (!coarse.max_error_json.empty()) json["max"] = ordered_json::parse(coarse.max_error_json);
-  if (!coarse.max_smooth_error_json.empty()) {
-    json["max_smooth"] = ordered_json::parse(coarse.max_smooth_error_json);
+  if (!coarse.max_fine_error_json.empty()) {
+    json["max_fine"] = ordered_json::parse(coarse.max_fine_error_json);
   }
   if (!coarse.sum_error_json.empty()) json["sum"] = ordered_json::parse(coarse.sum_error_json);
   return json;

@@ -40,7 +40,7 @@ ordered_json certificate_json(const Certificate& certificate) {
   ordered_json json;
   json["size"] = {certificate.size.x, certificate.size.y};
   json["max"] = error_json(certificate.max);
-  json["max_smooth"] = error_json(certificate.max_smooth);
+  json["max_fine"] = error_json(certificate.max_fine);
   json["sum"] = error_json(certificate.sum);
   json["surfaces"] = {{"max_error", rounded(certificate.max_emission_error)},
                       {"rms_error", rounded(certificate.rms_emission_error)},
@@ -51,7 +51,7 @@ ordered_json certificate_json(const Certificate& certificate) {
                              {"azimuth_deg", view.view.azimuth_deg},
                              {"elevation_deg", view.view.elevation_deg},
                              {"max", error_json(view.max)},
-                             {"max_smooth", decibels_json(view.max_smooth)},
+                             {"max_fine", decibels_json(view.max_fine)},
                              {"sum", error_json(view.sum)}});
   }
   return json;
@@ -82,7 +82,7 @@ ordered_json coarse_error(const CompressedSet& built, const ProgressCallback& ca
     return json;
   };
   return {{"max", sized(measured.max)},
-          {"max_smooth", sized(measured.max_smooth)},
+          {"max_fine", sized(measured.max_fine)},
           {"sum", sized(measured.sum)}};
 }
 
@@ -118,7 +118,7 @@ std::string longest_certificate(const glm::ivec2& size) {
   certificate.size = size;
   certificate.max = kMax;
   certificate.sum = kSum;
-  certificate.max_smooth = kMax;
+  certificate.max_fine = kMax;
   certificate.max_emission_error = kLong;
   certificate.rms_emission_error = kLong;
   certificate.emission_error_bound = kLong;

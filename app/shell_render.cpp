@@ -78,13 +78,6 @@ Value value_of(std::string_view flag, const std::optional<Value>& value, std::st
               fmt::format("{}: found '{}', expected {}", flag, found, expected));
 }
 
-/// Whether layers of that name are smooth, if there are any.
-std::optional<bool> smooth_layers(std::string_view name) {
-  if (name == "smooth") return true;
-  if (name == "flat") return false;
-  return std::nullopt;
-}
-
 Views views_of(const ExactFlags& flags, const DrawFlags& draw, const VolumeFacts& volume,
                std::size_t shells) {
   Views views;
@@ -128,7 +121,7 @@ ordered_json figures_of(const ShellRenderer& renderer, const ExactFlags& flags, 
   json["picture"] = {{"width", image.width}, {"height", image.height}};
   if (result.window) json["display"] = {result.window->lo, result.window->hi};
   if (views.copies) {
-    json["coarse"] = copies_json(*views.copies, picture_mode(flags.picture), !plan.layers.empty());
+    json["coarse"] = copies_json(*views.copies, picture_mode(flags.picture), layers_drawn(plan));
   }
   json["passes"] = ordered_json::array();
   for (const Pass& pass : plan.passes) json["passes"].push_back(describe(pass));
@@ -136,7 +129,7 @@ ordered_json figures_of(const ShellRenderer& renderer, const ExactFlags& flags, 
   for (const LeftOut& left : plan.left_out) {
     json["left_out"].push_back({{"what", left.what}, {"why", left.why}});
   }
-  json["smooth_layers"] = !plan.layers.empty();
+  json["layers"] = name(layers_drawn(plan));
   json["warnings"] = plan.warnings;
   json["triangles_drawn"] = renderer.last_frame().triangles;
   json["uploaded_bytes"] = renderer.uploaded_bytes();
@@ -163,7 +156,7 @@ void draw_views(ShellRenderer& renderer, const ExactFlags& flags, const DrawFlag
                 const Views& views, const std::vector<Plan>& plans, Timing timing,
                 Reporter& reporter) {
   if (draw.explain && views.copies) {
-    say_copies(*views.copies, picture_mode(flags.picture), !plans.front().layers.empty(), reporter);
+    say_copies(*views.copies, picture_mode(flags.picture), layers_drawn(plans.front()), reporter);
   }
   if (draw.explain) say_plan(plans.front(), reporter);
   warn_of_limits(plans, reporter);
@@ -227,7 +220,8 @@ void add_draw_flags(CLI::App& verb, DrawFlags& flags) {
       ->group(group);
   verb.add_option("--layers", flags.layers,
                   "Between the levels a maximum without a cue is estimated from the pixels around "
-                  "(smooth), or each layer shows one brightness (flat)")
+                  "(smooth), from nine rays a pixel (fine), or each layer shows one brightness "
+                  "(flat)")
       ->capture_default_str()
       ->group(group);
   verb.add_option("--detail", flags.detail_px,
@@ -255,8 +249,7 @@ RenderOptions render_options(const ExactFlags& flags, const DrawFlags& draw, std
   options.depth = value_of("--depth-buffer", depth_format(draw.depth_buffer), draw.depth_buffer,
                            "16, 24 or 32f");
   options.target = value_of("--target", target_format(draw.target), draw.target, "8, 16f or 32f");
-  options.smooth_layers =
-      value_of("--layers", smooth_layers(draw.layers), draw.layers, "smooth or flat");
+  options.layers = value_of("--layers", layers(draw.layers), draw.layers, "fine, smooth or flat");
   options.occlusion =
       value_of("--occlusion", occlusion(draw.occlusion), draw.occlusion, "auto, passes or texture");
   return options;
@@ -266,8 +259,10 @@ void say_plan(const Plan& plan, Reporter& reporter) {
   for (const Pass& pass : plan.passes) reporter.say("draws    " + describe(pass));
   if (plan.passes.empty()) reporter.say("draws    nothing: the picture is black");
   if (!plan.layers.empty()) {
-    reporter.say(fmt::format("smooth   {} layers: the maximum is estimated between their levels",
-                             plan.layers.size()));
+    reporter.say(fmt::format(
+        "{:<8} {} layers: the maximum is estimated between their levels{}",
+        name(layers_drawn(plan)), plan.layers.size(),
+        plan.samples > 1 ? fmt::format(", from {0} x {0} rays a pixel", plan.samples) : ""));
   }
   for (const LeftOut& left : plan.left_out) {
     reporter.say(fmt::format("left out {}: {}", left.what, left.why));

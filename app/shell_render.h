@@ -13,7 +13,7 @@ namespace nacre {
 /// How shells are drawn, as flags say it.
 struct DrawFlags {
   std::string backend = "auto";
-  std::string layers = "smooth";
+  std::string layers = "fine";
   std::string depth_buffer = "32f";
   std::string target = "32f";
   std::string occlusion = "auto";

@@ -40,7 +40,7 @@ struct Row {
   std::string settings;
   std::size_t bytes = 0;
   double flat_db = 0.0;    ///< PSNR with flat layers
-  double smooth_db = 0.0;  ///< estimated between the levels
+  double fine_db = 0.0;    ///< estimated between the levels
   double max_error = 0.0;  ///< of a pixel, likewise
 };
 
@@ -119,12 +119,12 @@ class Comparison {
     for (const std::size_t part : bytes) row.bytes += part;
     const Certificate measured = certifier_.result();
     row.flat_db = measured.max.psnr_db;
-    row.smooth_db = measured.max_smooth.psnr_db;
-    row.max_error = measured.max_smooth.max_error;
+    row.fine_db = measured.max_fine.psnr_db;
+    row.max_error = measured.max_fine.max_error;
     fmt::print(
-        "{:13} {:36} {:9} bytes, flat {:6.2f}, smooth {:6.2f} dB, largest error {:.3f} "
+        "{:13} {:36} {:9} bytes, flat {:6.2f}, fine {:6.2f} dB, largest error {:.3f} "
         "{:6.1f} s\n",
-        row.method, row.settings, row.bytes, row.flat_db, row.smooth_db, row.max_error,
+        row.method, row.settings, row.bytes, row.flat_db, row.fine_db, row.max_error,
         seconds.count());
     std::fflush(stdout);
     rows_.push_back(std::move(row));
@@ -189,8 +189,8 @@ void compare(const std::string& path, double lo, double hi, std::vector<std::siz
   }
   for (const std::size_t count : levels) comparison.add_plain(count);
   const std::vector<Row>& rows = comparison.rows();
-  print_at_equal_error(rows, "ours smooth, plain sets flat", &Row::smooth_db, &Row::flat_db);
-  print_at_equal_error(rows, "both smooth", &Row::smooth_db, &Row::smooth_db);
+  print_at_equal_error(rows, "ours fine, plain sets flat", &Row::fine_db, &Row::flat_db);
+  print_at_equal_error(rows, "both fine", &Row::fine_db, &Row::fine_db);
   print_at_equal_error(rows, "both flat", &Row::flat_db, &Row::flat_db);
 }
 

@@ -135,6 +135,11 @@ Camera make_camera(const CameraOptions& options, const BoundingSphere& sphere) {
   return camera;
 }
 
+Camera with_samples(Camera camera, int per_pixel) {
+  camera.size *= per_pixel;
+  return camera;
+}
+
 glm::dvec3 eye_mm(const Camera& camera) {
   return camera.target_mm - camera.eye_distance_mm * camera.forward;
 }

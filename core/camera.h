@@ -77,6 +77,10 @@ struct Camera {
 /// @throws Error  BadArgument for a size, zoom, field of view, distance or angle out of range
 Camera make_camera(const CameraOptions& options, const BoundingSphere& sphere);
 
+/// The same view in `per_pixel` by `per_pixel` rays a pixel, as pixels of a larger picture. Where
+/// that is odd, the middle one of each goes through the pixel's centre.
+Camera with_samples(Camera camera, int per_pixel);
+
 /// Position of the eye, LPS mm.
 /// @pre camera.perspective
 glm::dvec3 eye_mm(const Camera& camera);

@@ -3,25 +3,27 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstring>
+#include <limits>
+#include <numeric>
+
+#include "core/layer_samples.h"
 
 namespace nacre {
 namespace {
 
-constexpr std::size_t kClasses = 5;
-constexpr int kReach = 2;  ///< steps
-constexpr int kMaxStride = 16;
-/// Pixels are looked at in blocks, those far from any shell not at all.
-constexpr int kBlock = kReach * kMaxStride;
-/// Pixels side by side.
-using Lanes [[gnu::vector_size(16)]] = float;
-constexpr int kLanes = 4;
-static_assert(kBlock % kLanes == 0);
-/// Mean squared difference of neighbours, in squared layers, from which on what quantising leaves
-/// of them is taken as independent.
-constexpr double kIndependent = 0.25;
+using layers::kBlock;
+using layers::kClasses;
+using layers::kMaxStride;
+using layers::kReach;
+using layers::Neighbourhood;
+using layers::Occupancy;
+using layers::SumOf;
+
+/// Mean squared difference of neighbours, in squared layers, up to which steps are made wider: what
+/// quantising leaves of samples in the same layer is the same.
+constexpr double kAlike = 0.3;
 /// Variance of errors that contours and simplifying leave in each class's sum of differences, in
-/// squared widths. Without it, weights would grow beyond measure along straight vessels.
+/// squared layers. Without it, weights would grow beyond measure along straight vessels.
 constexpr double kOtherErrors = 0.2;
 /// Rows that covariances are taken from, at even distances.
 constexpr int kSampledRows = 128;
@@ -53,24 +55,7 @@ void serial(int count, const std::function<void(int)>& row) {
   for (int i = 0; i < count; ++i) row(i);
 }
 
-void run(const RowLoop& rows, int count, const std::function<void(int)>& row) {
-  rows ? rows(count, row) : serial(count, row);
-}
-
-Lanes load(const float* from) {
-  Lanes lanes;
-  std::memcpy(&lanes, from, sizeof lanes);
-  return lanes;
-}
-
-/// 1 where above 0.
-Lanes shows(const Lanes& value) { return value > 0.0F ? Lanes{} + 1.0F : Lanes{}; }
-
-double sum_of(const Lanes& lanes) {
-  return (double{lanes[0]} + double{lanes[1]}) + (double{lanes[2]} + double{lanes[3]});
-}
-
-/// The layer that a value is the representative of.
+/// The layer that a value is the representative of, or lies in.
 class LayerLookup {
  public:
   explicit LayerLookup(std::span<const LayerRange> layers) : layers_(layers) {
@@ -81,11 +66,15 @@ class LayerLookup {
     }
   }
 
-  /// nullptr: of none.
-  const LayerRange* find(float value) const {
+  std::size_t rank_of(float value) const {
+    if (!(value > 0.0F)) return 0;
     std::size_t layer = first_[static_cast<std::size_t>(bin_of(value))];
     while (layer < layers_.size() && layers_[layer].shown < value) ++layer;
-    return layer < layers_.size() && layers_[layer].shown == value ? &layers_[layer] : nullptr;
+    if (layer < layers_.size() && layers_[layer].shown == value) return layer;
+    // Between two representatives.
+    layer = std::min(layer, layers_.size() - 1);
+    while (layer > 0 && layers_[layer].lo > value) --layer;
+    return layer;
   }
 
  private:
@@ -97,212 +86,87 @@ class LayerLookup {
   std::array<std::uint32_t, kBins> first_{};
 };
 
-const float* row_of(const Image& image, int y) {
-  return image.pixels.data() + static_cast<std::ptrdiff_t>(image.width) * y;
-}
-
-/// Which blocks of each row show a shell.
-class Occupancy {
- public:
-  Occupancy(const Image& image, const RowLoop& rows)
-      : blocks_((image.width + kBlock - 1) / kBlock),
-        shows_(static_cast<std::size_t>(blocks_) * static_cast<std::size_t>(image.height)) {
-    run(rows, image.height, [&](int y) {
-      const float* row = row_of(image, y);
-      for (int block = 0; block < blocks_; ++block) {
-        const int end = std::min((block + 1) * kBlock, image.width);
-        int x = block * kBlock;
-        Lanes sum{};
-        for (; x + kLanes <= end; x += kLanes) sum += load(row + x);
-        bool any = sum_of(sum) > 0.0;
-        for (; x < end; ++x) any = any || row[x] > 0.0F;
-        shows_[index(block, y)] = any ? 1 : 0;
-      }
-    });
-  }
-
-  int blocks() const { return blocks_; }
-
-  bool shows(int block, int y) const {
-    return block >= 0 && block < blocks_ && shows_[index(block, y)] != 0;
-  }
-
-  bool shows_about(int block, int y) const {
-    return shows(block - 1, y) || shows(block, y) || shows(block + 1, y);
-  }
-
- private:
-  std::size_t index(int block, int y) const {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(blocks_) +
-           static_cast<std::size_t>(block);
-  }
-
-  int blocks_;
-  std::vector<std::uint8_t> shows_;
-};
-
-/// A row and its neighbours in steps of a stride; what lies outside the picture is as its border.
-class Neighbourhood {
- public:
-  Neighbourhood(const Image& image, int stride, int y)
-      : image_(image),
-        stride_(stride),
-        pad_(kReach * stride),
-        up_{row(y - stride), row(y - 2 * stride)},
-        middle_(row(y)),
-        down_{row(y + stride), row(y + 2 * stride)},
-        length_(static_cast<std::size_t>(image.width + 2 * pad_ + kLanes)),
-        values_(5 * length_) {}
-
-  /// Makes the sums of differences of pixels from x to end known.
-  void fill(int x, int end) {
-    float* center = padded(0);
-    float* near = padded(1);
-    float* far = padded(2);
-    const int to = std::min(end + pad_, image_.width);
-    for (int i = std::max(x - pad_, 0); i < to; ++i) {
-      center[i] = middle_[i];
-      near[i] = up_[0][i] + down_[0][i];
-      far[i] = up_[1][i] + down_[1][i];
-    }
-    for (float* row : {center, near, far}) fill_borders(row, x, end);
-  }
-
-  /// Makes single differences to the rows below known, after `fill`.
-  void fill_below(int x, int end) {
-    const int from = std::max(x - pad_, 0);
-    const int to = std::min(end + pad_, image_.width);
-    for (std::size_t step = 0; step < down_.size(); ++step) {
-      float* below = padded(3 + step);
-      std::copy(down_[step] + from, down_[step] + to, below + from);
-      fill_borders(below, x, end);
-    }
-  }
-
-  Lanes center(int x) const { return load(padded(0) + x); }
-
-  /// Of each class, the sum of the differences to the pixel.
-  std::array<Lanes, kClasses> differences(int x) const {
-    const float* center = padded(0) + x;
-    const float* near = padded(1) + x;
-    const float* far = padded(2) + x;
-    const int one = stride_;
-    const int two = 2 * stride_;
-    const Lanes four = 4.0F * load(center);
-    return {
-        load(center - one) + load(center + one) + load(near) - four,
-        load(near - one) + load(near + one) - four,
-        load(center - two) + load(center + two) + load(far) - four,
-        (load(near - two) + load(near + two)) + (load(far - one) + load(far + one)) - 2.0F * four,
-        load(far - two) + load(far + two) - four};
-  }
-
-  /// The squared difference to one neighbour, beside or below.
-  Lanes squared(int x, const Offset& offset) const {
-    const std::size_t row = offset.y == 0 ? 0 : 2 + static_cast<std::size_t>(offset.y);
-    const Lanes difference = load(padded(row) + x + offset.x * stride_) - center(x);
-    return difference * difference;
-  }
-
- private:
-  const float* row(int y) const { return row_of(image_, std::clamp(y, 0, image_.height - 1)); }
-
-  float* padded(std::size_t row) { return values_.data() + row * length_ + pad_; }
-  const float* padded(std::size_t row) const { return values_.data() + row * length_ + pad_; }
-
-  void fill_borders(float* row, int x, int end) const {
-    for (int i = x - pad_; i < 0; ++i) row[i] = row[0];
-    for (int i = image_.width; i < end + pad_; ++i) row[i] = row[image_.width - 1];
-  }
-
-  const Image& image_;
-  int stride_;
-  int pad_;
-  std::array<const float*, kReach> up_;
-  const float* middle_;
-  std::array<const float*, kReach> down_;
-  std::size_t length_;
-  /// The row, the sums of those one and two steps off, those one and two steps below.
-  std::vector<float> values_;
-};
-
 /// Sums over pixels that show a shell.
 struct Statistics {
   std::array<std::array<double, kClasses>, kClasses> products{};  ///< of the classes' differences
   std::array<double, kOffsets.size()> squares{};                  ///< of single differences
-  double squared_widths = 0.0;                                    ///< of their layers
+  double pixels = 0.0;
 
   void add(const Statistics& other) {
     for (std::size_t i = 0; i < kClasses; ++i) {
       for (std::size_t j = 0; j < kClasses; ++j) products[i][j] += other.products[i][j];
     }
     for (std::size_t i = 0; i < squares.size(); ++i) squares[i] += other.squares[i];
-    squared_widths += other.squared_widths;
+    pixels += other.pixels;
   }
 };
 
-/// The squared widths of the layers of the lanes that count, added up.
-double squared_widths(const Lanes& shown, const Lanes& counted, const LayerLookup& layers) {
-  double sum = 0.0;
-  for (int i = 0; i < kLanes; ++i) {
-    const LayerRange* layer = counted[i] > 0.0F ? layers.find(shown[i]) : nullptr;
-    if (layer == nullptr) continue;
-    const double width = double{layer->hi} - double{layer->lo};
-    sum += width * width;
+/// Of some pixels, those that show nothing counted as 0.
+template <class Sum>
+double sum_of_products(const Sum* a, const Sum* b, const Sum* center, int count) {
+  // Differences of layers are whole numbers, and so are their sums: the same in any order.
+  std::int64_t sum = 0;
+  for (int i = 0; i < count; ++i) {
+    const std::int64_t product = std::int64_t{a[i]} * b[i];
+    sum += center[i] > 0 ? product : 0;
   }
-  return sum;
+  return static_cast<double>(sum);
 }
 
-Statistics statistics_of_row(const Image& image, const Occupancy& occupancy,
-                             const LayerLookup& layers, int stride, int y) {
-  Neighbourhood around(image, stride, y);
-  std::array<std::array<Lanes, kClasses>, kClasses> products{};
-  std::array<Lanes, kOffsets.size()> squares{};
+template <class Rank>
+Statistics statistics_of_row(const LayerSamples<Rank>& samples, const Occupancy<Rank>& occupancy,
+                             int stride, int y) {
+  using Sum = SumOf<Rank>;
+  Neighbourhood<Rank> around(samples, stride, y, true);
+  const int middle = y * samples.per_pixel + samples.per_pixel / 2;
+  std::array<std::array<Sum, kBlock>, kClasses> differences;
+  std::array<Sum, kBlock> difference;
   Statistics sums;
   for (int block = 0; block < occupancy.blocks(); ++block) {
-    if (!occupancy.shows(block, y)) continue;
-    const int end = std::min((block + 1) * kBlock, image.width);
-    around.fill(block * kBlock, end);
-    around.fill_below(block * kBlock, end);
-    for (int x = block * kBlock; x < end; x += kLanes) {
-      Lanes counted = shows(around.center(x));
-      for (int i = end - x; i < kLanes; ++i) counted[i] = 0.0F;
-      const std::array<Lanes, kClasses> differences = around.differences(x);
-      for (std::size_t i = 0; i < kClasses; ++i) {
-        const Lanes difference = counted * differences[i];
-        for (std::size_t j = 0; j <= i; ++j) products[i][j] += difference * differences[j];
+    if (!occupancy.shows(block, middle)) continue;
+    const int x = block * kBlock;
+    const int count = std::min(kBlock, samples.width - x);
+    around.fill(x, x + count);
+    const Sum* center = around.center() + x;
+    around.differences(x, count, differences);
+    for (std::size_t i = 0; i < kClasses; ++i) {
+      for (std::size_t j = 0; j <= i; ++j) {
+        sums.products[i][j] +=
+            sum_of_products(differences[i].data(), differences[j].data(), center, count);
       }
-      for (std::size_t i = 0; i < kOffsets.size(); ++i) {
-        squares[i] += counted * around.squared(x, kOffsets[i]);
+    }
+    for (std::size_t i = 0; i < kOffsets.size(); ++i) {
+      const Sum* there = around.neighbour(kOffsets[i].x, kOffsets[i].y) + x;
+      for (int k = 0; k < count; ++k) {
+        difference[static_cast<std::size_t>(k)] = static_cast<Sum>(there[k] - center[k]);
       }
-      sums.squared_widths += squared_widths(around.center(x), counted, layers);
+      sums.squares[i] += sum_of_products(difference.data(), difference.data(), center, count);
     }
+    sums.pixels +=
+        static_cast<double>(std::count_if(center, center + count, [](Sum c) { return c > 0; }));
   }
-  for (std::size_t i = 0; i < kClasses; ++i) {
-    for (std::size_t j = 0; j <= i; ++j) {
-      sums.products[i][j] = sums.products[j][i] = sum_of(products[i][j]);
-    }
-  }
-  for (std::size_t i = 0; i < squares.size(); ++i) sums.squares[i] = sum_of(squares[i]);
   return sums;
 }
 
-Statistics statistics_of(const Image& image, const Occupancy& occupancy, const LayerLookup& layers,
+template <class Rank>
+Statistics statistics_of(const LayerSamples<Rank>& samples, const Occupancy<Rank>& occupancy,
                          int stride, const RowLoop& rows) {
-  const int step = std::max(image.height / kSampledRows, 1);
-  const int sampled = (image.height + step - 1) / step;
+  const int step = std::max(samples.height / kSampledRows, 1);
+  const int sampled = (samples.height + step - 1) / step;
   std::vector<Statistics> of_rows(static_cast<std::size_t>(sampled));
-  run(rows, sampled, [&](int i) {
-    of_rows[static_cast<std::size_t>(i)] =
-        statistics_of_row(image, occupancy, layers, stride, i * step);
+  rows(sampled, [&](int i) {
+    of_rows[static_cast<std::size_t>(i)] = statistics_of_row(samples, occupancy, stride, i * step);
   });
   Statistics all;
   for (const Statistics& row : of_rows) all.add(row);
+  for (std::size_t i = 0; i < kClasses; ++i) {
+    for (std::size_t j = 0; j < i; ++j) all.products[j][i] = all.products[i][j];
+  }
   return all;
 }
 
-/// -E[(q(n) - q(p)) u(p)], u what quantising leaves, in squared widths, where the neighbour's mean
-/// squared difference is that (docs/derivations.md, 3.5).
+/// -E[(k(n) - k(p)) u(p)], u what quantising leaves, where the neighbour's mean squared difference
+/// is that (docs/derivations.md, 3.5).
 double covariance_with_error(double mean_square) {
   constexpr double kVariance = 1.0 / 12.0;
   if (!(mean_square < 0.5)) return kVariance;
@@ -331,85 +195,157 @@ std::array<double, kClasses> solve(std::array<std::array<double, kClasses>, kCla
 
 /// All 0 where nothing is to be told.
 std::array<double, kClasses> weights_of(const Statistics& sums) {
-  if (!(sums.squared_widths > 0.0)) return {};
+  if (!(sums.pixels > 0.0)) return {};
   std::array<std::array<double, kClasses>, kClasses> left = sums.products;
   std::array<double, kClasses> right{};
-  for (std::size_t i = 0; i < kClasses; ++i) left[i][i] += kOtherErrors * sums.squared_widths;
+  for (std::size_t i = 0; i < kClasses; ++i) left[i][i] += kOtherErrors * sums.pixels;
   for (std::size_t i = 0; i < kOffsets.size(); ++i) {  // each stands for the opposite one as well
     right[kOffsets[i].index] +=
-        2.0 * sums.squared_widths * covariance_with_error(sums.squares[i] / sums.squared_widths);
+        2.0 * sums.pixels * covariance_with_error(sums.squares[i] / sums.pixels);
   }
   return solve(left, right);
 }
 
-/// Of the next pixels beside and below, in squared widths.
+/// Of the next samples beside and below.
 double mean_square(const Statistics& sums) {
-  return sums.squared_widths > 0.0 ? 0.5 * (sums.squares[0] + sums.squares[1]) / sums.squared_widths
-                                   : kIndependent;
+  return sums.pixels > 0.0 ? 0.5 * (sums.squares[0] + sums.squares[1]) / sums.pixels : 1.0;
 }
 
-LayerFilter filter_of(const Image& image, const Occupancy& occupancy, const LayerLookup& layers,
-                      const RowLoop& rows) {
-  for (int stride = 1;; stride *= 2) {
-    const Statistics sums = statistics_of(image, occupancy, layers, stride, rows);
-    if (stride == kMaxStride || mean_square(sums) >= kIndependent) {
-      return {stride, weights_of(sums)};
-    }
-  }
+/// 1, 2, 3, 4, 6, 8, 12, 16, 24, ...
+int wider_than(int stride) {
+  const bool is_power_of_two = (stride & (stride - 1)) == 0;
+  return is_power_of_two ? std::max(stride + stride / 2, stride + 1) : stride / 3 * 4;
 }
+
+template <class Rank>
+LayerFilter filter_of(const LayerSamples<Rank>& samples, const Occupancy<Rank>& occupancy,
+                      const RowLoop& rows) {
+  Statistics sums = statistics_of(samples, occupancy, 1, rows);
+  int stride = 1;
+  for (int next = 2; next <= kMaxStride * samples.per_pixel; next = wider_than(stride)) {
+    // Differences grow at least as the distance does.
+    if (mean_square(sums) * next > kAlike * stride) break;
+    const Statistics wider = statistics_of(samples, occupancy, next, rows);
+    if (mean_square(wider) > kAlike) break;
+    stride = next;
+    sums = wider;
+  }
+  return {stride, weights_of(sums)};
+}
+
+/// What a layer's pixels show from half a layer below to half a layer above.
+struct LayerSlopes {
+  float shown;
+  float below;  ///< emission a layer
+  float above;
+};
 
 /// What a row is estimated to be.
+template <class Rank>
 class RowEstimate {
  public:
-  RowEstimate(const LayerFilter& filter, const LayerLookup& layers)
-      : stride_(filter.stride), layers_(layers) {
+  RowEstimate(const LayerSamples<Rank>& samples, const Occupancy<Rank>& occupancy,
+              const LayerFilter& filter, std::span<const LayerRange> layers)
+      : samples_(samples), occupancy_(occupancy), stride_(filter.stride) {
     for (std::size_t i = 0; i < kClasses; ++i) {
       weights_[i] = static_cast<float>(filter.weights[i]);
     }
+    for (const LayerRange& layer : layers) {
+      slopes_.push_back(
+          {layer.shown, 2.0F * (layer.shown - layer.lo), 2.0F * (layer.hi - layer.shown)});
+    }
   }
 
-  void write(const Image& image, const Occupancy& occupancy, const std::uint8_t* fixed, int y,
-             float* out) const {
-    Neighbourhood around(image, stride_, y);
-    for (int block = 0; block < occupancy.blocks(); ++block) {
+  void write(const std::uint8_t* fixed, int y, float* out) const {
+    Neighbourhood<Rank> around(samples_, stride_, y);
+    for (int block = 0; block < occupancy_.blocks(); ++block) {
       const int x = block * kBlock;
-      const int end = std::min(x + kBlock, image.width);
-      if (shows_near(image, occupancy, block, y)) {
-        around.fill(x, end);
-        write_block(around, fixed, x, end, out);
+      const int count = std::min(kBlock, samples_.width - x);
+      if (shows_near(block, y)) {
+        around.fill(x, x + count);
+        write_block(around, fixed == nullptr ? nullptr : fixed + x, x, count, out + x);
+      } else {
+        std::fill_n(out + x, count, slopes_[0].shown);
       }
     }
   }
 
  private:
-  bool shows_near(const Image& image, const Occupancy& occupancy, int block, int y) const {
+  bool shows_near(int block, int y) const {
+    const int rows = samples_.height * samples_.per_pixel;
     for (int step = -kReach; step <= kReach; ++step) {
-      const int row = std::clamp(y + step * stride_, 0, image.height - 1);
-      if (occupancy.shows_about(block, row)) return true;
+      const int row = y * samples_.per_pixel + samples_.per_pixel / 2 + step * stride_;
+      if (occupancy_.shows_about(block, std::clamp(row, 0, rows - 1))) return true;
     }
     return false;
   }
 
-  void write_block(const Neighbourhood& around, const std::uint8_t* fixed, int x, int end,
+  void write_block(const Neighbourhood<Rank>& around, const std::uint8_t* fixed, int x, int count,
                    float* out) const {
-    for (; x < end; x += kLanes) {
-      const std::array<Lanes, kClasses> differences = around.differences(x);
-      Lanes change{};
-      for (std::size_t i = 0; i < kClasses; ++i) change += weights_[i] * differences[i];
-      const Lanes here = around.center(x);
-      for (int i = 0; i < std::min(kLanes, end - x); ++i) {
-        if (change[i] == 0.0F) continue;
-        if (fixed != nullptr && here[i] == 0.0F && fixed[x + i] != 0) continue;
-        const LayerRange* layer = layers_.find(here[i]);
-        if (layer != nullptr) out[x + i] = std::clamp(here[i] + change[i], layer->lo, layer->hi);
+    std::array<std::array<SumOf<Rank>, kBlock>, kClasses> differences;
+    around.differences(x, count, differences);
+    std::array<float, kBlock> change{};
+    for (std::size_t c = 0; c < kClasses; ++c) {
+      for (std::size_t i = 0; i < kBlock; ++i) {
+        change[i] += weights_[c] * static_cast<float>(differences[c][i]);
       }
+    }
+    const auto* center = around.center() + x;
+    for (int i = 0; i < count; ++i) {
+      const auto rank = static_cast<std::size_t>(center[i]);
+      const LayerSlopes& layer = slopes_[rank];
+      float moved = std::clamp(change[static_cast<std::size_t>(i)], -0.5F, 0.5F);
+      if (rank == 0 && fixed != nullptr && fixed[i] != 0) moved = 0.0F;
+      out[i] = layer.shown + moved * (moved < 0.0F ? layer.below : layer.above);
     }
   }
 
+  const LayerSamples<Rank>& samples_;
+  const Occupancy<Rank>& occupancy_;
   int stride_;
   std::array<float, kClasses> weights_{};
-  const LayerLookup& layers_;
+  std::vector<LayerSlopes> slopes_;
 };
+
+/// The layers of all samples.
+template <class Rank>
+void find_ranks(const Image& samples, const LayerLookup& lookup, const RowLoop& rows,
+                std::vector<Rank>& ranks) {
+  ranks.resize(samples.pixels.size());
+  rows(samples.height, [&](int y) {
+    const auto first = static_cast<std::size_t>(y) * static_cast<std::size_t>(samples.width);
+    float before = 0.0F;
+    Rank rank = 0;
+    for (std::size_t i = first; i < first + static_cast<std::size_t>(samples.width); ++i) {
+      if (samples.pixels[i] != before) {  // most are as the sample before them
+        before = samples.pixels[i];
+        rank = static_cast<Rank>(lookup.rank_of(before));
+      }
+      ranks[i] = rank;
+    }
+  });
+}
+
+/// @param ranks  memory
+template <class Rank>
+void dequantize_image(const Image& samples, int per_pixel, std::span<const LayerRange> layers,
+                      std::span<const std::uint8_t> fixed, const RowLoop& rows,
+                      std::vector<Rank>& ranks, Image& maximum) {
+  find_ranks(samples, LayerLookup(layers), rows, ranks);
+  const LayerSamples<Rank> of_layers{samples.width / per_pixel, samples.height / per_pixel,
+                                     per_pixel, ranks};
+  dequantize(of_layers, layers, fixed, rows, maximum);
+  const int middle = per_pixel / 2;
+  rows(maximum.height, [&](int y) {
+    for (int x = 0; x < maximum.width; ++x) {
+      const float shown = samples.at(x * per_pixel + middle, y * per_pixel + middle);
+      const auto sample = static_cast<std::size_t>(y * per_pixel + middle) *
+                              static_cast<std::size_t>(samples.width) +
+                          static_cast<std::size_t>(x * per_pixel + middle);
+      if (shown != layers[ranks[sample]].shown) maximum.at(x, y) = shown;
+    }
+  });
+}
 
 }  // namespace
 
@@ -430,31 +366,63 @@ std::vector<LayerRange> layer_ranges(std::span<const LayerLevel> levels, double 
   return layers;
 }
 
-LayerFilter layer_filter(const Image& maximum, std::span<const LayerRange> layers,
-                         const RowLoop& rows) {
-  return filter_of(maximum, Occupancy(maximum, rows), LayerLookup(layers), rows);
+template <class Rank>
+LayerFilter layer_filter(const LayerSamples<Rank>& samples, const RowLoop& rows) {
+  const RowLoop& loop = rows ? rows : serial;
+  return filter_of(samples, Occupancy<Rank>(samples, loop), loop);
 }
 
-void dequantize(Image& maximum, std::span<const LayerRange> layers,
-                std::span<const std::uint8_t> fixed, const RowLoop& rows,
-                std::vector<float>& memory) {
-  const Occupancy occupancy(maximum, rows);
-  const LayerLookup lookup(layers);
-  const RowEstimate estimate(filter_of(maximum, occupancy, lookup, rows), lookup);
-  memory.resize(maximum.pixels.size());
-  run(rows, maximum.height, [&](int y) {
-    const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(maximum.width) * y;
-    float* out = memory.data() + first;
-    std::copy_n(maximum.pixels.data() + first, maximum.width, out);
-    estimate.write(maximum, occupancy, fixed.empty() ? nullptr : fixed.data() + first, y, out);
+template <class Rank>
+void dequantize(const LayerSamples<Rank>& samples, std::span<const LayerRange> layers,
+                std::span<const std::uint8_t> fixed, const RowLoop& rows, Image& maximum) {
+  const RowLoop& loop = rows ? rows : serial;
+  maximum.width = samples.width;
+  maximum.height = samples.height;
+  maximum.pixels.resize(static_cast<std::size_t>(samples.width) *
+                        static_cast<std::size_t>(samples.height));
+  const Occupancy<Rank> occupancy(samples, loop);
+  const RowEstimate<Rank> estimate(samples, occupancy, filter_of(samples, occupancy, loop), layers);
+  loop(samples.height, [&](int y) {
+    const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(samples.width) * y;
+    estimate.write(fixed.empty() ? nullptr : fixed.data() + first, y,
+                   maximum.pixels.data() + first);
   });
-  maximum.pixels.swap(memory);
+}
+
+template LayerFilter layer_filter(const LayerSamples<std::uint8_t>&, const RowLoop&);
+template LayerFilter layer_filter(const LayerSamples<std::uint16_t>&, const RowLoop&);
+template void dequantize(const LayerSamples<std::uint8_t>&, std::span<const LayerRange>,
+                         std::span<const std::uint8_t>, const RowLoop&, Image&);
+template void dequantize(const LayerSamples<std::uint16_t>&, std::span<const LayerRange>,
+                         std::span<const std::uint8_t>, const RowLoop&, Image&);
+
+void dequantize(const Image& samples, int per_pixel, std::span<const LayerRange> layers,
+                std::span<const std::uint8_t> fixed, const RowLoop& rows,
+                DequantizationMemory& memory, Image& maximum) {
+  const RowLoop& loop = rows ? rows : serial;
+  if (layers.size() <= std::numeric_limits<std::uint8_t>::max() + 1U) {
+    dequantize_image(samples, per_pixel, layers, fixed, loop, memory.bytes, maximum);
+  } else {
+    dequantize_image(samples, per_pixel, layers, fixed, loop, memory.words, maximum);
+  }
 }
 
 void dequantize(Image& maximum, std::span<const LayerRange> layers,
                 std::span<const std::uint8_t> fixed, const RowLoop& rows) {
-  std::vector<float> memory;
-  dequantize(maximum, layers, fixed, rows, memory);
+  DequantizationMemory memory;
+  Image result;
+  dequantize(maximum, 1, layers, fixed, rows, memory, result);
+  maximum = std::move(result);
+}
+
+Image middle_samples(const Image& samples, int per_pixel) {
+  Image picture = make_image(samples.width / per_pixel, samples.height / per_pixel);
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = 0; x < picture.width; ++x) {
+      picture.at(x, y) = samples.at(x * per_pixel + per_pixel / 2, y * per_pixel + per_pixel / 2);
+    }
+  }
+  return picture;
 }
 
 }  // namespace nacre

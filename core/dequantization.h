@@ -34,43 +34,69 @@ std::vector<LayerRange> layer_ranges(std::span<const LayerLevel> levels, double 
 /// Runs a function for 0, 1, ... count - 1, in any order, possibly at once.
 using RowLoop = std::function<void(int count, const std::function<void(int)>& row)>;
 
-/// The weights of a pixel's neighbours, in steps of `stride` pixels aside and up: those 1, 1.4, 2,
-/// 2.2 and 2.8 steps away (4, 4, 4, 8 and 4 of them).
+/// The layers that rays through a picture show, by number, the background's being 0: an odd number
+/// of rays a pixel along each axis, evenly spaced, that in the middle through the pixel's centre.
+template <class Rank>
+struct LayerSamples {
+  int width = 0;  ///< of the picture, pixels
+  int height = 0;
+  int per_pixel = 1;            ///< along each axis; odd
+  std::span<const Rank> ranks;  ///< width * per_pixel a row
+};
+
+/// The weights of the samples around a pixel's centre, in steps of `stride` samples aside and up:
+/// those 1, 1.4, 2, 2.2 and 2.8 steps away (4, 4, 4, 8 and 4 of them).
 struct LayerFilter {
   int stride = 1;
   std::array<double, 5> weights{};
 };
 
 /// The filter that `dequantize` takes for a picture.
-LayerFilter layer_filter(const Image& maximum, std::span<const LayerRange> layers,
-                         const RowLoop& rows = {});
+template <class Rank>
+LayerFilter layer_filter(const LayerSamples<Rank>& samples, const RowLoop& rows = {});
 
-/// Estimates the maximum projection between the levels from the layers that a picture of shells
-/// shows, by the linear filter of least mean squared error (a Wiener filter; docs/derivations.md,
-/// 3.5):
+/// Estimates a maximum projection between the levels from the layers that rays show, by the linear
+/// filter of least mean squared error (a Wiener filter; docs/derivations.md, 3.5):
 ///
-///     v(p) = q(p) + sum_l w_l sum_(n in l) (q(n) - q(p)),
+///     v(p) = k(p) + sum_l w_l sum_(n in l) (k(n) - k(p)),
 ///
-/// where q is the picture, l are the classes of neighbours in `LayerFilter`. The weights are those
-/// for which the estimated error is least, from the picture's own covariances and the variance of
-/// what quantising to layers leaves, width^2 / 12. No pixel leaves its layer, so that no error
-/// becomes larger than a layer is wide.
+/// where k(p) is the layer's number at the pixel's centre, l are the classes of neighbouring
+/// samples in `LayerFilter`. The weights are those for which the estimated error is least, from the
+/// picture's own covariances and the variance of what quantising to layers leaves, 1 / 12. The
+/// emission is linear in v from the layer's level (k - 1/2) to its representative (k), and from
+/// there to the next level. No pixel leaves its layer, so that no error becomes larger than a layer
+/// is wide.
 ///
 /// The same picture gives the same bytes for any way of running the rows.
 ///
-/// @param maximum  an uncued maximum projection: every pixel is a layer's representative (others
-///                 stay as they are)
-/// @param layers   ascending
+/// @param layers   ascending, one for each rank
 /// @param fixed    pixels of the background that stay black, if not 0; empty: none. For tools,
-/// which
-///                 end rays: the next pixel's vessel may lie behind them
-/// @param memory  where the result is put; has the memory of what the picture was when this returns
-void dequantize(Image& maximum, std::span<const LayerRange> layers,
-                std::span<const std::uint8_t> fixed, const RowLoop& rows,
-                std::vector<float>& memory);
+///                 which end rays: the next pixel's vessel may lie behind them
+/// @param maximum  the result; its memory is used anew where it suffices
+template <class Rank>
+void dequantize(const LayerSamples<Rank>& samples, std::span<const LayerRange> layers,
+                std::span<const std::uint8_t> fixed, const RowLoop& rows, Image& maximum);
 
-/// The same where memory does not matter.
+/// What `dequantize` keeps from picture to picture: new memory for each costs more than the filter.
+struct DequantizationMemory {
+  std::vector<std::uint8_t> bytes;
+  std::vector<std::uint16_t> words;
+};
+
+/// The same for a picture of representatives. Pixels that show none of them stay as they are; for
+/// their neighbours they are of the layer that they lie in.
+///
+/// @param samples  an uncued maximum projection, as large as the picture times `per_pixel`
+/// @param layers   at most 65536
+void dequantize(const Image& samples, int per_pixel, std::span<const LayerRange> layers,
+                std::span<const std::uint8_t> fixed, const RowLoop& rows,
+                DequantizationMemory& memory, Image& maximum);
+
+/// The same in place, of one ray a pixel, where memory does not matter.
 void dequantize(Image& maximum, std::span<const LayerRange> layers,
                 std::span<const std::uint8_t> fixed = {}, const RowLoop& rows = {});
+
+/// The middle samples alone: the picture of one ray a pixel.
+Image middle_samples(const Image& samples, int per_pixel);
 
 }  // namespace nacre

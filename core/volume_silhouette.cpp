@@ -146,13 +146,16 @@ std::vector<PixelSpan> volume_silhouette(const Camera& camera, const glm::i64vec
   return spans;
 }
 
-void black_outside(std::span<const PixelSpan> spans, Image& picture) {
-  auto row = picture.pixels.begin();
-  for (const PixelSpan& span : spans) {
-    std::fill(row, row + span.first, 0.0F);
-    std::fill(row + span.end, row + picture.width, 0.0F);
-    row += picture.width;
+std::vector<PixelSpan> middle_spans(std::span<const PixelSpan> spans, int per_pixel) {
+  std::vector<PixelSpan> middle;
+  const auto pixels_before = [&](int ray) {  // those whose middle rays lie before it
+    return std::max(ray - per_pixel / 2 + per_pixel - 1, 0) / per_pixel;
+  };
+  for (auto y = static_cast<std::size_t>(per_pixel / 2); y < spans.size();
+       y += static_cast<std::size_t>(per_pixel)) {
+    middle.push_back({pixels_before(spans[y].first), pixels_before(spans[y].end)});
   }
+  return middle;
 }
 
 }  // namespace nacre

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 #include <span>
@@ -28,8 +29,25 @@ struct PixelSpan {
 std::vector<PixelSpan> volume_silhouette(const Camera& camera, const glm::i64vec3& dims,
                                          const glm::dmat4& world_from_voxel);
 
+/// Of spans of rays, an odd number `per_pixel` of them a pixel along each axis, those of the pixels
+/// whose middle rays they hold.
+std::vector<PixelSpan> middle_spans(std::span<const PixelSpan> spans, int per_pixel);
+
 /// Blacks the pixels outside of the spans.
-/// @pre  `spans` are as many as the picture has rows, or none: then the picture stays as it is
-void black_outside(std::span<const PixelSpan> spans, Image& picture);
+/// @param width  of the picture
+/// @pre          `spans` are as many as the picture has rows, or none: then it stays as it is
+template <class Pixel>
+void black_outside(std::span<const PixelSpan> spans, int width, std::span<Pixel> pixels) {
+  auto row = pixels.begin();
+  for (const PixelSpan& span : spans) {
+    std::fill(row, row + span.first, Pixel{0});
+    std::fill(row + span.end, row + width, Pixel{0});
+    row += width;
+  }
+}
+
+inline void black_outside(std::span<const PixelSpan> spans, Image& picture) {
+  black_outside<float>(spans, picture.width, picture.pixels);
+}
 
 }  // namespace nacre

@@ -274,7 +274,7 @@ ShellFileCoarse coarse_of(const Value& value) {
   coarse.tolerance = value["tolerance"].number();
   if (!(coarse.tolerance >= 0.0)) value["tolerance"].expect("0 or more");
   if (value.has("max")) coarse.max_error_json = value["max"].raw().dump();
-  if (value.has("max_smooth")) coarse.max_smooth_error_json = value["max_smooth"].raw().dump();
+  if (value.has("max_fine")) coarse.max_fine_error_json = value["max_fine"].raw().dump();
   if (value.has("sum")) coarse.sum_error_json = value["sum"].raw().dump();
   return coarse;
 }

@@ -115,7 +115,7 @@ Json coarse_json(const StoredCoarse& coarse) {
     if (!error.empty()) json[key] = parsed_json(error, "coarse copies");
   };
   state("max", coarse.max_error_json);
-  state("max_smooth", coarse.max_smooth_error_json);
+  state("max_fine", coarse.max_fine_error_json);
   state("sum", coarse.sum_error_json);
   return json;
 }

@@ -27,7 +27,7 @@ struct StoredCoarse {
   std::vector<std::optional<StoredShell>> shells;  ///< one a level; none: there are no copies
   double tolerance = 0.0;
   std::string max_error_json = {};
-  std::string max_smooth_error_json = {};
+  std::string max_fine_error_json = {};
   std::string sum_error_json = {};
 };
 

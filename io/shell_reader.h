@@ -26,10 +26,10 @@ struct ShellFileLevel {
 
 /// What a shell file says of its coarse copies (`CoarseShells`).
 struct ShellFileCoarse {
-  double tolerance = 0.0;             ///< emission error that their simplification was allowed
-  std::string max_error_json;         ///< of their maxima; empty if the file does not state it
-  std::string max_smooth_error_json;  ///< of maxima estimated between the levels, likewise
-  std::string sum_error_json;         ///< of their sums, likewise
+  double tolerance = 0.0;           ///< emission error that their simplification was allowed
+  std::string max_error_json;       ///< of their maxima; empty if the file does not state it
+  std::string max_fine_error_json;  ///< of maxima estimated between the levels, likewise
+  std::string sum_error_json;       ///< of their sums, likewise
   std::vector<std::optional<ShellFileLevel>> levels;  ///< one a shell; none: it has no copy
 };
 

@@ -194,7 +194,7 @@ std::vector<std::byte> assemble_shell_set(const ShellSet& set,
     check_coarse(*options.coarse, shells);
     copies = options.coarse->shells;
     stored.coarse = {store(copies, binary_size), options.coarse->tolerance,
-                     options.coarse->max_error_json, options.coarse->max_smooth_error_json,
+                     options.coarse->max_error_json, options.coarse->max_fine_error_json,
                      options.coarse->sum_error_json};
   }
   stored.binary_size = binary_size;

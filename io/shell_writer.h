@@ -29,9 +29,9 @@ struct CoarseShells {
   double tolerance = 0.0;  ///< emission error that their simplification was allowed
   std::vector<CompressedShell> shells = {};  ///< one a level; without bytes where there is no copy
   /// Any JSON values that state the error of their maxima, of maxima estimated between the levels,
-  /// and of their sums, written as `coarse.max`, `coarse.max_smooth` and `coarse.sum`; empty: none.
+  /// and of their sums, written as `coarse.max`, `coarse.max_fine` and `coarse.sum`; empty: none.
   std::string max_error_json = {};
-  std::string max_smooth_error_json = {};
+  std::string max_fine_error_json = {};
   std::string sum_error_json = {};
 };
 

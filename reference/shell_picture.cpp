@@ -95,6 +95,9 @@ class ShellPainter {
 
   Picture paint(const ProgressCallback& progress) {
     Picture picture = make_picture(camera_, options_.tools);
+    ShellPixels pixels(camera_, options_.cue, options_.slab, bounds_, options_.tools,
+                       picture.tools ? &*picture.tools : nullptr);
+    pixels_ = &pixels;
     const auto rows = static_cast<int>(std::max<std::int64_t>(1, kPixelsAtOnce / camera_.size.x));
     const int strips = (camera_.size.y + rows - 1) / rows;
     ProgressMeter meter(
@@ -119,31 +122,16 @@ class ShellPainter {
   void paint_rows(int first, int end, Picture& picture, ProgressMeter& meter) {
     first_row_ = first;
     end_row_ = end;
-    pixels_ = make_shell_pixels(camera_, options_.cue, options_.slab, bounds_, options_.tools,
-                                picture.tools ? &*picture.tools : nullptr, first, end);
-    if (!columns_.empty()) empty_outside_box();
+    pixels_->begin(first, end);
     switch (options_.mode) {
       case PictureMode::Max: paint_max(meter); break;
       case PictureMode::Sum: paint_sum(meter); break;
       case PictureMode::Count: paint_count(meter); break;
       case PictureMode::Iso: paint_iso(meter); break;
     }
-    const auto out =
-        picture.volume.pixels.begin() + static_cast<std::ptrdiff_t>(first) * picture.volume.width;
-    std::ranges::transform(pixels_, out,
-                           [](const ShellPixel& pixel) { return static_cast<float>(pixel.value); });
-  }
-
-  /// Rays that miss the volume's box meet nothing.
-  void empty_outside_box() {
-    for (int y = first_row_; y < end_row_; ++y) {
-      const PixelSpan& span = columns_[static_cast<std::size_t>(y)];
-      ShellPixel* row =
-          pixels_.data() + static_cast<std::ptrdiff_t>(y - first_row_) * camera_.size.x;
-      for (int x = 0; x < camera_.size.x; ++x) {
-        if (x < span.first || x >= span.end) row[x].interval = {0.0, 0.0};
-      }
-    }
+    for_each_pixel([&](int x, int y, const ShellPixel& pixel) {
+      picture.volume.at(x, y) = static_cast<float>(pixel.value);
+    });
   }
 
   void paint_max(ProgressMeter& meter) {
@@ -169,12 +157,22 @@ class ShellPainter {
 
   /// Within n shells the ray shows r_n where it starts (or ends).
   void add_ends() {
-    for (ShellPixel& pixel : pixels_) {
-      if (pixel.around <= 0 || pixel.is_empty()) continue;
+    for_each_pixel([&](int, int, ShellPixel& pixel) {
+      if (pixel.around <= 0 || pixel.is_empty()) return;
       const auto n = std::min(static_cast<std::size_t>(pixel.around), shells_.size());
       pixel.value =
           std::max(pixel.value, shells_[n - 1].representative * pixel.beta(pixel.counted_from_mm));
-    }
+    });
+  }
+
+  /// Calls `function(x, y, pixel)` with all that a triangle came near.
+  template <class Function>
+  void for_each_pixel(Function&& function) {
+    tbb::parallel_for(first_row_, end_row_, [&](int y) {
+      for (int x = 0; x < camera_.size.x; ++x) {
+        if (ShellPixel* pixel = pixels_->find(x, y)) function(x, y, *pixel);
+      }
+    });
   }
 
   void paint_sum(ProgressMeter& meter) {
@@ -251,6 +249,12 @@ class ShellPainter {
         tbb::simple_partitioner());
   }
 
+  /// Rays that miss the volume's box meet nothing.
+  PixelSpan columns_at(int y) const {
+    if (columns_.empty()) return {0, camera_.size.x};
+    return columns_[static_cast<std::size_t>(y)];
+  }
+
   template <class Wants, class Meet>
   void meet_pixels(const TriangleMesh& mesh, const BinnedTriangle& binned, Wants&& wants,
                    Meet&& meet) {
@@ -259,10 +263,10 @@ class ShellPainter {
     const glm::dvec3 b = center_mm_ + glm::dvec3(mesh.positions[t.y]);
     const glm::dvec3 c = center_mm_ + glm::dvec3(mesh.positions[t.z]);
     for (int y = binned.pixels.first.y; y <= binned.pixels.last.y; ++y) {
-      const std::size_t row =
-          static_cast<std::size_t>(camera_.size.x) * static_cast<std::size_t>(y - first_row_);
-      for (int x = binned.pixels.first.x; x <= binned.pixels.last.x; ++x) {
-        ShellPixel& pixel = pixels_[row + static_cast<std::size_t>(x)];
+      const PixelSpan columns = columns_at(y);
+      for (int x = std::max(binned.pixels.first.x, columns.first);
+           x <= std::min(binned.pixels.last.x, columns.end - 1); ++x) {
+        ShellPixel& pixel = pixels_->at(x, y);
         if (pixel.is_empty() || !wants(pixel)) continue;
         const auto met = crossing(pixel.along(a), pixel.along(b), pixel.along(c));
         if (met) meet(pixel, *met, binned.triangle);
@@ -281,7 +285,7 @@ class ShellPainter {
   std::vector<PixelSpan> columns_;                ///< that meet the volume's box; empty: all
   int first_row_ = 0;                             ///< of the pixels at hand
   int end_row_ = 0;
-  std::vector<ShellPixel> pixels_;
+  ShellPixels* pixels_ = nullptr;
 };
 
 }  // namespace

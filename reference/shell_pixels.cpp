@@ -37,33 +37,41 @@ void set_cue(const Camera& camera, const DepthCue& cue, const Ray& ray, ShellPix
 
 }  // namespace
 
-std::vector<ShellPixel> make_shell_pixels(const Camera& camera, const DepthCue& cue,
-                                          const Slab& slab, const ShellBounds& bounds,
-                                          const ToolRays* tools, ToolLayer* layer, int first_row,
-                                          int end_row) {
-  const int width = camera.size.x;
+ShellPixels::ShellPixels(const Camera& camera, const DepthCue& cue, const Slab& slab,
+                         const ShellBounds& bounds, const ToolRays* tools, ToolLayer* layer)
+    : camera_(camera), cue_(cue), slab_(slab), bounds_(bounds), tools_(tools), layer_(layer) {}
+
+void ShellPixels::begin(int first_row, int end_row) {
+  first_row_ = first_row;
   const auto count =
-      static_cast<std::size_t>(width) * static_cast<std::size_t>(end_row - first_row);
-  std::vector<ShellPixel> pixels(count, ShellPixel(Ray{{0, 0, 0}, {0, 0, 1}}));
+      static_cast<std::size_t>(camera_.size.x) * static_cast<std::size_t>(end_row - first_row);
+  made_.assign(count, 0);
+  if (count > count_) {
+    slots_ = std::make_unique_for_overwrite<Slot[]>(count);  // NOLINT(modernize-avoid-c-arrays)
+    count_ = count;
+  }
+  if (layer_ == nullptr) return;
   tbb::parallel_for(first_row, end_row, [&](int y) {
-    for (int x = 0; x < width; ++x) {
-      const Ray ray = picture_ray(camera, x + 0.5, y + 0.5);
-      ShellPixel pixel(ray);
-      pixel.interval = visible_interval(camera, ray, slab);
-      if (layer != nullptr) {
-        pixel.interval.t_end_mm = std::min(pixel.interval.t_end_mm,
-                                           draw_tool_pixel(*tools, camera, cue, ray, x, y, *layer));
-      }
-      set_cue(camera, cue, ray, pixel);
-      const double t = brightest_end_mm(cue, pixel.interval);
-      if (std::isfinite(t) && may_be_inside(bounds, ray.origin_mm + t * ray.direction)) {
-        pixel.counted_from_mm = t;
-      }
-      pixels[static_cast<std::size_t>(x) +
-             static_cast<std::size_t>(width) * static_cast<std::size_t>(y - first_row)] = pixel;
-    }
+    for (int x = 0; x < camera_.size.x; ++x) make(x, y);
   });
-  return pixels;
+}
+
+void ShellPixels::make(int x, int y) {
+  const Ray ray = picture_ray(camera_, x + 0.5, y + 0.5);
+  ShellPixel pixel(ray);
+  pixel.interval = visible_interval(camera_, ray, slab_);
+  if (layer_ != nullptr) {
+    pixel.interval.t_end_mm = std::min(pixel.interval.t_end_mm,
+                                       draw_tool_pixel(*tools_, camera_, cue_, ray, x, y, *layer_));
+  }
+  set_cue(camera_, cue_, ray, pixel);
+  const double t = brightest_end_mm(cue_, pixel.interval);
+  if (std::isfinite(t) && may_be_inside(bounds_, ray.origin_mm + t * ray.direction)) {
+    pixel.counted_from_mm = t;
+  }
+  const std::size_t i = index(x, y);
+  std::construct_at(&slots_[i].pixel, pixel);
+  made_[i] = 1;
 }
 
 }  // namespace nacre

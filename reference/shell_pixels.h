@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <glm/vec3.hpp>
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include "core/camera.h"
@@ -42,13 +44,56 @@ struct ShellBounds {
   glm::dvec3 hi_mm{-std::numeric_limits<double>::infinity()};
 };
 
-/// Sets up the pixels of some rows, and draws the tools they see.
-///
-/// @param bounds  of the shells shown: where none can be around a point, none are counted
-/// @param layer   of the camera's size; null without tools
-std::vector<ShellPixel> make_shell_pixels(const Camera& camera, const DepthCue& cue,
-                                          const Slab& slab, const ShellBounds& bounds,
-                                          const ToolRays* tools, ToolLayer* layer, int first_row,
-                                          int end_row);
+/// The rays through the pixels of some rows at a time, each made when it is first asked for: most
+/// pixels of a picture see nothing. Those that tools are drawn in are all made at once.
+class ShellPixels {
+ public:
+  /// @param camera  must outlive this, as what the options point to
+  /// @param bounds  of the shells shown: where none can be around a point, none are counted
+  /// @param layer   of the camera's size, for the tools that are seen; null without tools
+  ShellPixels(const Camera& camera, const DepthCue& cue, const Slab& slab,
+              const ShellBounds& bounds, const ToolRays* tools, ToolLayer* layer);
+
+  /// Starts some rows.
+  void begin(int first_row, int end_row);
+
+  /// The pixel; those of a row are asked for by one thread at a time.
+  ShellPixel& at(int x, int y) {
+    const std::size_t i = index(x, y);
+    if (made_[i] == 0) make(x, y);
+    return slots_[i].pixel;
+  }
+
+  /// The pixel, if it was asked for.
+  ShellPixel* find(int x, int y) {
+    const std::size_t i = index(x, y);
+    return made_[i] != 0 ? &slots_[i].pixel : nullptr;
+  }
+
+ private:
+  /// Memory of a pixel that may not be there.
+  union Slot {
+    Slot() noexcept {}  // NOLINT(modernize-use-equals-default): that would be deleted
+    ShellPixel pixel;
+  };
+
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(x) +
+           static_cast<std::size_t>(camera_.size.x) * static_cast<std::size_t>(y - first_row_);
+  }
+
+  void make(int x, int y);
+
+  const Camera& camera_;
+  DepthCue cue_;
+  Slab slab_;
+  ShellBounds bounds_;
+  const ToolRays* tools_;
+  ToolLayer* layer_;
+  int first_row_ = 0;
+  std::size_t count_ = 0;          ///< of slots
+  std::unique_ptr<Slot[]> slots_;  // NOLINT(modernize-avoid-c-arrays): memory as it comes
+  std::vector<std::uint8_t> made_;
+};
 
 }  // namespace nacre

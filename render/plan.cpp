@@ -68,14 +68,15 @@ Plan make_plan(const SceneFacts& scene, const Camera& camera, const RenderOption
   plan.target = options.target;
   plan.cue = options.cue;
   plan.normals = !options.rules.leave_out_normals;
-  plan.tiles = tiles(camera.size, capabilities.max_target_side);
   planning::find_tools(planning);
   planning::find_shells(planning);
   plan_shells(planning);
+  plan.tiles = tiles(with_samples(camera, plan.samples).size, capabilities.max_target_side);
   planning::note_limits(planning);
   plan.rays = drawn_span(planning);
   if (options.mode != PictureMode::Iso && is_stated(scene.volume)) {
-    plan.columns = volume_silhouette(camera, scene.volume.dims, scene.volume.world_from_voxel);
+    plan.columns = volume_silhouette(with_samples(camera, plan.samples), scene.volume.dims,
+                                     scene.volume.world_from_voxel);
   }
   if (!plan.normals) planning.leave_out("normals", "nothing is lit");
   return plan;

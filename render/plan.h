@@ -98,12 +98,22 @@ struct Plan {
   /// The emission that a rank stands for, [0] = 0 for black: a depth d read back is rank
   /// round(d * (size - 1)).
   std::vector<float> emission_of_rank{0.0F};
-  /// Between which a maximum is estimated once it is drawn; empty: it stays as it is.
+  /// Between which a maximum is estimated once it is drawn, one for each rank; empty: it stays as
+  /// it is.
   std::vector<LayerRange> layers;
+  /// Rays a pixel along each axis, from which that is estimated. What is drawn, `tiles` and
+  /// `columns` with it, is so many times as large as the picture.
+  int samples = 1;
   /// The columns of each row whose rays meet the volume's box: the others are black, whatever was
   /// drawn. Empty: all columns show.
   std::vector<PixelSpan> columns;
 };
+
+/// What a maximum shows between the levels.
+inline Layers layers_drawn(const Plan& plan) {
+  if (plan.layers.empty()) return Layers::Flat;
+  return plan.samples > 1 ? Layers::Fine : Layers::Smooth;
+}
 
 /// Indices of the shells that the plan draws, ascending: what has to be decoded and uploaded.
 std::vector<std::uint32_t> shells_drawn(const Plan& plan);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <iterator>
 
 #include "core/error.h"
@@ -194,23 +195,46 @@ Pass max_pass(Planning& planning, Trend trend, bool ranked) {
   return pass;
 }
 
-/// Says between which levels the picture is estimated, or why it is not.
+/// The layers that pixels show, one for each rank; none where a rank is no layer's.
+std::vector<LayerRange> layers_of_ranks(const Planning& planning) {
+  std::vector<LayerLevel> levels;
+  for (const ShellFacts& shell : planning.scene.shells) {
+    levels.push_back({shell.emission, shell.representative});
+  }
+  const std::vector<LayerRange> all = layer_ranges(levels, beta(planning.options.cue, 0.0));
+  std::vector<LayerRange> layers;
+  for (const float shown : planning.plan.emission_of_rank) {
+    const auto layer = std::ranges::find(all, shown, &LayerRange::shown);
+    if (layer == all.end()) return {};
+    layers.push_back(*layer);
+  }
+  return layers;
+}
+
+/// Rays a pixel along each axis that fine layers take.
+constexpr int kFineSamples = 3;
+/// The most rays that are taken for them.
+constexpr std::int64_t kMostSamples = std::int64_t{1} << 26;
+
+/// Says between which levels the picture is estimated, and from how many rays, or why it is not.
 void plan_layers(Planning& planning) {
   const RenderOptions& options = planning.options;
   const auto leave_out = [&](std::string_view why) { planning.leave_out("smooth layers", why); };
-  if (!options.smooth_layers) return;
+  if (options.layers == Layers::Flat) return;
   const bool black = planning.plan.passes.empty() || beta(options.cue, 0.0) == 0.0;
   if (black) return leave_out("the picture is black");
   if (!is_flat(options.cue)) return leave_out("under a cue a pixel does not tell its layer");
   if (!options.hidden.empty()) {
     return leave_out("shells are hidden: those shown are to show alone");
   }
-  std::vector<LayerLevel> levels;
-  for (const ShellFacts& shell : planning.scene.shells) {
-    levels.push_back({shell.emission, shell.representative});
+  planning.plan.layers = layers_of_ranks(planning);
+  if (planning.plan.layers.empty()) return leave_out("a representative lies outside its layer");
+  if (options.layers != Layers::Fine) return;
+  const glm::ivec2 size = with_samples(planning.camera, kFineSamples).size;
+  if (std::int64_t{size.x} * size.y > kMostSamples) {
+    return planning.leave_out("fine layers", "the picture is large enough without");
   }
-  planning.plan.layers = layer_ranges(levels, beta(options.cue, 0.0));
-  if (planning.plan.layers.empty()) leave_out("a representative lies outside its layer");
+  planning.plan.samples = kFineSamples;
 }
 
 }  // namespace

@@ -18,6 +18,8 @@ constexpr std::array<Named<TargetFormat>, 3> kTargetFormats{
     {{TargetFormat::U8, "8"}, {TargetFormat::F16, "16f"}, {TargetFormat::F32, "32f"}}};
 constexpr std::array<Named<Occlusion>, 3> kOcclusions{
     {{Occlusion::Auto, "auto"}, {Occlusion::Passes, "passes"}, {Occlusion::Texture, "texture"}}};
+constexpr std::array<Named<Layers>, 3> kLayers{
+    {{Layers::Flat, "flat"}, {Layers::Smooth, "smooth"}, {Layers::Fine, "fine"}}};
 
 template <class Value, std::size_t Size>
 std::string_view name_in(const std::array<Named<Value>, Size>& names, Value value) noexcept {
@@ -41,6 +43,7 @@ std::optional<Value> value_in(const std::array<Named<Value>, Size>& names,
 std::string_view name(DepthFormat format) noexcept { return name_in(kDepthFormats, format); }
 std::string_view name(TargetFormat format) noexcept { return name_in(kTargetFormats, format); }
 std::string_view name(Occlusion occlusion) noexcept { return name_in(kOcclusions, occlusion); }
+std::string_view name(Layers layers) noexcept { return name_in(kLayers, layers); }
 
 std::optional<DepthFormat> depth_format(std::string_view name) noexcept {
   return value_in(kDepthFormats, name);
@@ -51,5 +54,6 @@ std::optional<TargetFormat> target_format(std::string_view name) noexcept {
 std::optional<Occlusion> occlusion(std::string_view name) noexcept {
   return value_in(kOcclusions, name);
 }
+std::optional<Layers> layers(std::string_view name) noexcept { return value_in(kLayers, name); }
 
 }  // namespace nacre

@@ -30,17 +30,27 @@ enum class TargetFormat { U8, F16, F32 };
 /// - Auto: the texture, always exact and seldom the slower (decision 012).
 enum class Occlusion { Auto, Passes, Texture };
 
+/// What a maximum shows between the levels, `--layers`.
+///
+/// - Flat: each layer its representative;
+/// - Smooth: an estimate from the layers of the pixels around (`dequantize`);
+/// - Fine: the same from three by three rays a pixel, which tell better where layers begin.
+enum class Layers { Flat, Smooth, Fine };
+
 /// "16", "24", "32f", as `--depth-buffer` has them.
 std::string_view name(DepthFormat format) noexcept;
 /// "8", "16f", "32f", as `--target` has them.
 std::string_view name(TargetFormat format) noexcept;
 /// "auto", "passes", "texture".
 std::string_view name(Occlusion occlusion) noexcept;
+/// "flat", "smooth", "fine".
+std::string_view name(Layers layers) noexcept;
 
 /// What has that name, if anything does.
 std::optional<DepthFormat> depth_format(std::string_view name) noexcept;
 std::optional<TargetFormat> target_format(std::string_view name) noexcept;
 std::optional<Occlusion> occlusion(std::string_view name) noexcept;
+std::optional<Layers> layers(std::string_view name) noexcept;
 
 /// What the plan may leave out though it is there. All on but for tests, which show that switching
 /// a rule off changes the work and not the picture.
@@ -68,9 +78,7 @@ struct RenderOptions {
   DepthFormat depth = DepthFormat::D32F;
   TargetFormat target = TargetFormat::F32;
   Occlusion occlusion = Occlusion::Auto;
-  /// Whether a maximum is estimated between the levels (`dequantize`), where each layer would show
-  /// its representative alone.
-  bool smooth_layers = false;
+  Layers layers = Layers::Flat;
   PlanRules rules = {};
 };
 

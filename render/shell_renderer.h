@@ -81,11 +81,20 @@ class ShellRenderer {
   ShellRenderer& operator=(ShellRenderer&&) = default;
 };
 
-/// What is done to a picture once it is drawn: what lies beyond the volume's box goes, and a
-/// maximum is estimated between its levels, where that is planned. The background stays black where
-/// a tool is seen, and beyond the box.
-/// @param memory  as in `dequantize`: kept by a renderer from picture to picture
-void finish_picture(const Plan& plan, Picture& picture, std::vector<float>& memory,
+/// What a renderer keeps from picture to picture: new memory for each would cost more than what is
+/// done in it.
+struct PictureMemory {
+  DequantizationMemory layers;
+  Image samples;  ///< a picture as it is drawn, where that is larger than the one that is shown
+};
+
+/// A black picture to draw on: as large as the camera's, times the plan's samples.
+Image blank_samples(const Camera& camera, const Plan& plan, PictureMemory& memory);
+
+/// What is done to a picture once it is drawn, its volume on `blank_samples`: what lies beyond the
+/// volume's box goes, and a maximum is estimated between its levels, where that is planned. The
+/// background stays black where a tool is seen, and beyond the box.
+void finish_picture(const Plan& plan, Picture& picture, PictureMemory& memory,
                     const RowLoop& rows = {});
 
 /// Checks what is to be uploaded.

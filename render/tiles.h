@@ -1,6 +1,7 @@
 #pragma once
 
 #include <glm/vec2.hpp>
+#include <optional>
 #include <vector>
 
 #include "render/projection.h"
@@ -12,5 +13,13 @@ namespace nacre {
 ///
 /// @pre size and max_side at least 1
 std::vector<PixelRect> tiles(const glm::ivec2& size, int max_side);
+
+/// The pixel whose centre a ray goes through, of an odd number `per_pixel` along each axis; none
+/// for the others.
+inline std::optional<glm::ivec2> pixel_of(const glm::ivec2& sample, int per_pixel) {
+  const glm::ivec2 pixel = sample / per_pixel;
+  if (sample != pixel * per_pixel + per_pixel / 2) return std::nullopt;
+  return pixel;
+}
 
 }  // namespace nacre

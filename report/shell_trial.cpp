@@ -48,7 +48,7 @@ RenderOptions render_options_of(const Method& method, const MeasurementOptions& 
   render.depth = method.depth;
   render.target = method.target;
   render.occlusion = method.occlusion;
-  render.smooth_layers = true;  // as `nacre render`
+  render.layers = Layers::Fine;  // as `nacre render`
   return render;
 }
 

@@ -19,6 +19,8 @@ namespace nacre {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
+/// Rays a pixel along each axis that maxima are estimated from, as the command draws them.
+constexpr int kSamples = 3;
 
 /// Sums over the pixels of pictures beside exact ones.
 struct PixelSums {
@@ -96,12 +98,13 @@ class Certifier::Pictures {
   }
 
   void restart() {
-    shown_max_ = make_image(camera_.size.x, camera_.size.y);
+    shown_max_ = make_image(kSamples * camera_.size.x, kSamples * camera_.size.y);
     shown_sum_.assign(exact_sum_.pixels.size(), 0.0);
   }
 
   void add(const ShellSet& part) {
-    const Image max = shell_picture(part, camera_, {.mode = PictureMode::Max}).volume;
+    const Image max =
+        shell_picture(part, with_samples(camera_, kSamples), {.mode = PictureMode::Max}).volume;
     std::ranges::transform(shown_max_.pixels, max.pixels, shown_max_.pixels.begin(),
                            [](float a, float b) { return std::max(a, b); });
     if (shown_sum_.empty()) return;
@@ -111,14 +114,16 @@ class Certifier::Pictures {
     }
   }
 
-  PixelSums max() const { return beside_exact(shown_max_); }
+  PixelSums max() const { return beside_exact(middle_samples(shown_max_, kSamples)); }
 
   /// Between these layers; flat where there are none.
-  PixelSums max_smooth(std::span<const LayerRange> layers) const {
-    Image smooth = shown_max_;
-    dequantize(smooth, layers);
-    black_outside(columns_, smooth);
-    return beside_exact(smooth);
+  PixelSums max_fine(std::span<const LayerRange> layers) const {
+    if (layers.empty()) return max();
+    DequantizationMemory memory;
+    Image estimate;
+    dequantize(shown_max_, kSamples, layers, {}, {}, memory, estimate);
+    black_outside(columns_, estimate);
+    return beside_exact(estimate);
   }
 
   PixelSums sum() const {
@@ -142,7 +147,7 @@ class Certifier::Pictures {
   std::vector<PixelSpan> columns_;
   Image exact_max_;
   Image exact_sum_;
-  Image shown_max_;
+  Image shown_max_;  ///< of all rays
   std::vector<double> shown_sum_;
 };
 
@@ -234,14 +239,14 @@ Certificate Certifier::result() const {
     const PixelSums sum = pictures_[i].sum();
     all_max.add(max);
     all_sum.add(sum);
-    const PixelSums smooth = pictures_[i].max_smooth(layers);
+    const PixelSums smooth = pictures_[i].max_fine(layers);
     all_smooth.add(smooth);
     certificate.views.push_back(
         {options_.views[i], max.error_of_max(), sum.error_of_sum(), smooth.error_of_max()});
   }
   certificate.max = all_max.error_of_max();
   certificate.sum = all_sum.error_of_sum();
-  certificate.max_smooth = all_smooth.error_of_max();
+  certificate.max_fine = all_smooth.error_of_max();
   certificate.max_emission_error = emissions_->max_error;
   certificate.emission_error_bound = emissions_->bound;
   if (emissions_->area_mm2 > 0.0) {

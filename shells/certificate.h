@@ -47,7 +47,7 @@ struct CertifiedView {
   CertificateView view;
   CertifiedError max;
   CertifiedError sum;
-  CertifiedError max_smooth;
+  CertifiedError max_fine;
 };
 
 /// What a shell set's pictures and surfaces are worth.
@@ -57,7 +57,7 @@ struct Certificate {
   CertifiedError max;  ///< over all views' pixels
   CertifiedError sum;
   /// Of maxima that are estimated between the levels, as the command shows them (`dequantize`).
-  CertifiedError max_smooth;
+  CertifiedError max_fine;
   /// |phi - t_k| over the surfaces (`SurfaceEmission`): the largest sample, the root mean square
   /// over the area of all shells, and a bound that no point exceeds.
   double max_emission_error = 0.0;

@@ -46,7 +46,7 @@ struct RayEnds {
 };
 
 /// Pixels beyond the last of a target that kernels may look at.
-inline constexpr std::size_t kPixelPadding = 3;
+inline constexpr std::size_t kPixelPadding = 16;
 
 /// What the pixels of a target hold, of all that was drawn:
 ///

@@ -32,6 +32,22 @@ using Clock = std::chrono::steady_clock;
 /// Surfaces of fewer triangles are drawn as they are at all distances.
 constexpr std::size_t kLeastTriangles = 2000;
 
+/// Of the scene's diagonal, what a cluster may span: 115 pixels where the whole of it is drawn with
+/// 1536.
+constexpr double kClusterPart = 0.075;
+
+/// Of the box around all shells.
+double diagonal_mm(const SceneFacts& facts) {
+  Box all{glm::dvec3(std::numeric_limits<double>::infinity()),
+          glm::dvec3(-std::numeric_limits<double>::infinity())};
+  for (const ShellFacts& shell : facts.shells) {
+    if (shell.triangles == 0) continue;
+    all.lo = glm::min(all.lo, shell.bounds.lo);
+    all.hi = glm::max(all.hi, shell.bounds.hi);
+  }
+  return glm::distance(all.lo, all.hi);
+}
+
 /// Length of a millimetre in the picture where the box is nearest to the eye.
 double most_pixels_per_mm(const Camera& camera, const glm::dvec3& center_mm, const Box& box) {
   const double pixels = 0.5 * std::min(camera.size.x, camera.size.y) / camera.half_extent;
@@ -88,13 +104,14 @@ class CpuRenderer::Drawing {
   void upload(const ShellSet& set, const SceneFacts& facts, std::span<const std::uint32_t> shells) {
     check_upload(set, facts, shells);
     shells_.assign(set.shells.size(), {});
+    const double most_mm = kClusterPart * diagonal_mm(facts);
     tbb::parallel_for(std::size_t{0}, shells.size(), [&](std::size_t i) {
       const bool all = options_.detail_px <= 0.0;
       const TriangleMesh& surface = set.shells[shells[i]].surface;
       const std::optional<TriangleMesh> within = within_border(set, surface);
       shells_[shells[i]] =
           detail_levels(within ? *within : surface,
-                        all ? std::numeric_limits<std::size_t>::max() : kLeastTriangles);
+                        all ? std::numeric_limits<std::size_t>::max() : kLeastTriangles, most_mm);
     });
     scene_ = facts;
     scene_.tools.clear();
@@ -116,9 +133,6 @@ class CpuRenderer::Drawing {
       scene.shells[shell] = &mesh_for(shell, camera);
     }
     Picture picture = pictures_.draw(camera, plan, scene);
-    finish_picture(plan, picture, memory_, [](int count, const std::function<void(int)>& row) {
-      tbb::parallel_for(0, count, row);
-    });
     frame_ = pictures_.stats();
     frame_.seconds = std::chrono::duration<double>(Clock::now() - start).count();
     return picture;
@@ -175,7 +189,6 @@ class CpuRenderer::Drawing {
   std::vector<std::vector<DetailLevel>> shells_;  // one a shell of the set; empty: not uploaded
   ToolMeshes tools_;
   PlanDrawing pictures_;
-  std::vector<float> memory_;  // see `finish_picture`
   FrameStats frame_;
 };
 

@@ -15,9 +15,10 @@ constexpr int kSteps = 24;
 
 }  // namespace
 
-std::vector<DetailLevel> detail_levels(const TriangleMesh& mesh, std::size_t least_triangles) {
+std::vector<DetailLevel> detail_levels(const TriangleMesh& mesh, std::size_t least_triangles,
+                                       double most_mm) {
   std::vector<DetailLevel> levels;
-  levels.push_back({cluster_mesh(mesh), 0.0});
+  levels.push_back({cluster_mesh(mesh, most_mm), 0.0});
   if (mesh.triangles.size() <= least_triangles) return levels;
   EdgeMerging merging(mesh);
   double reach_mm = kFirstReach * mean_edge_mm(mesh);
@@ -25,7 +26,7 @@ std::vector<DetailLevel> detail_levels(const TriangleMesh& mesh, std::size_t lea
     merging.merge_pairs(reach_mm);
     reach_mm *= std::numbers::sqrt2;
     if (10 * merging.mesh().triangles.size() > 7 * levels.back().mesh.triangles) continue;
-    levels.push_back({cluster_mesh(merging.mesh()), merging.farthest_mm()});
+    levels.push_back({cluster_mesh(merging.mesh(), most_mm), merging.farthest_mm()});
   }
   return levels;
 }

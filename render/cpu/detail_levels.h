@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "core/triangle_mesh.h"
@@ -24,6 +25,9 @@ struct DetailLevel {
 /// About 0.5 us a triangle with all levels. They keep about 30 bytes a triangle of the surface, 1.7
 /// times its own memory, 14 of them for the surface itself; while they are made it is up to 110,
 /// mostly for `EdgeMerging`.
-std::vector<DetailLevel> detail_levels(const TriangleMesh& mesh, std::size_t least_triangles);
+///
+/// @param most_mm  of `cluster_mesh`
+std::vector<DetailLevel> detail_levels(const TriangleMesh& mesh, std::size_t least_triangles,
+                                       double most_mm = std::numeric_limits<double>::infinity());
 
 }  // namespace nacre

@@ -241,6 +241,19 @@ inline Edges side_by_side(const Edges& edges, int lane) {
   return all;
 }
 
+/// Bytes side by side, one for each lane.
+using Bytes [[gnu::vector_size(kLanes)]] = std::uint8_t;
+using SignedBytes [[gnu::vector_size(kLanes)]] = std::int8_t;
+
+/// Raises pixels side by side to a rank where the lanes are not negative. Pixels beside them, up to
+/// `kPixelPadding` behind the last, are written as they are.
+inline void raise_row(std::uint8_t* pixels, const Ints& lanes, std::uint8_t rank) {
+  const Ints inside = ~(lanes >> 31);
+  const auto ranks =
+      bits_as<Bytes>(__builtin_convertvector(inside, SignedBytes)) & (Bytes{} + rank);
+  store(pixels, greatest(load<Bytes>(pixels), ranks));
+}
+
 /// Covers one triangle, pixels side by side.
 template <class Pixel, bool kCut>
 void cover_large(Edges edges, int columns, int rows, const Canvas<Pixel, kCut>& first,
@@ -252,15 +265,20 @@ void cover_large(Edges edges, int columns, int rows, const Canvas<Pixel, kCut>& 
     const Canvas<Pixel, kCut> row = first.at(y * stride);
     for (int x = 0; x <= columns; x += kLanes) {
       const Ints left = columns - x - lane_numbers();
-      unsigned hit = (1U << kLanes) - 1;
-      hit &= ~sign_bits(value0 | value1 | value2 | left);
-      const auto fragments = shade.at(edges, value0, value1, value2);
-      if (hit == (1U << kLanes) - 1) {
-        for (int i = 0; i < kLanes; ++i) fragments.put(row, x + i, i);
+      const Ints outside = value0 | value1 | value2 | left;
+      if constexpr (sizeof(Pixel) == 1 && !kCut) {
+        raise_row(row.pixels + x, outside, shade.source.rank);
       } else {
-        for (; hit != 0; hit &= hit - 1) {
-          const int i = __builtin_ctz(hit);
-          fragments.put(row, x + i, i);
+        unsigned hit = (1U << kLanes) - 1;
+        hit &= ~sign_bits(outside);
+        const auto fragments = shade.at(edges, value0, value1, value2);
+        if (hit == (1U << kLanes) - 1) {
+          for (int i = 0; i < kLanes; ++i) fragments.put(row, x + i, i);
+        } else {
+          for (; hit != 0; hit &= hit - 1) {
+            const int i = __builtin_ctz(hit);
+            fragments.put(row, x + i, i);
+          }
         }
       }
       value0 += edges.step_x[0];

@@ -108,12 +108,13 @@ struct RaisedPixels<std::uint8_t, false> {
       return (held & kTopBits) == kTopBits ? 1 : 0;
     }
     if (columns >= kLargestSide || rows >= kLargestSide) return 0;
+    // A row at a time, all eight pixels to its right.
+    constexpr std::uint64_t kEveryByte = 0x0101010101010101U;
+    const std::uint64_t asked = (0x80 * kEveryByte) >> (8 * (7 - columns));
     for (int dy = 0; dy <= rows; ++dy) {
-      for (int dx = 0; dx <= columns; dx += 4) {
-        const int beyond = dx + 3 - columns;
-        const std::uint32_t asked = kTopBits >> (beyond > 0 ? 8 * beyond : 0);
-        if ((hold_in_row(first + dy * stride + dx, asked) & kTopBits) != kTopBits) return 0;
-      }
+      std::uint64_t eight = 0;
+      __builtin_memcpy(&eight, first + dy * stride, 8);
+      if ((((eight | (0x80 * kEveryByte)) - rank * kEveryByte) & asked) != asked) return 0;
     }
     return 1;
   }

@@ -71,11 +71,11 @@ constexpr double kReachEdges = 24.0;
 /// Gathers triangles until a cluster is full.
 class ClusterBuilder {
  public:
-  ClusterBuilder(const TriangleMesh& mesh, MeshClusters& result)
+  ClusterBuilder(const TriangleMesh& mesh, double most_mm, MeshClusters& result)
       : mesh_(mesh),
         result_(result),
         local_(mesh.positions.size(), kNone),
-        reach_mm_(static_cast<float>(kReachEdges * mean_edge_mm(mesh))) {}
+        reach_mm_(static_cast<float>(std::min(kReachEdges * mean_edge_mm(mesh), 0.5 * most_mm))) {}
 
   void add(std::uint32_t triangle) {
     const glm::uvec3& corners = mesh_.triangles[triangle];
@@ -208,7 +208,7 @@ double mean_edge_mm(const TriangleMesh& mesh) {
   return sum / static_cast<double>(mesh.triangles.size());
 }
 
-MeshClusters cluster_mesh(const TriangleMesh& mesh) {
+MeshClusters cluster_mesh(const TriangleMesh& mesh, double most_mm) {
   MeshClusters result;
   result.triangles = mesh.triangles.size();
   if (mesh.triangles.empty()) return result;
@@ -216,7 +216,7 @@ MeshClusters cluster_mesh(const TriangleMesh& mesh) {
   sort_by_key(keyed);
   result.corners.reserve(3 * keyed.size() + keyed.size() / 4);
   result.positions.reserve(2 * keyed.size() + keyed.size() / 4);
-  ClusterBuilder builder(mesh, result);
+  ClusterBuilder builder(mesh, most_mm, result);
   for (const KeyedTriangle& item : keyed) builder.add(item.triangle);
   builder.finish();
   return result;

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <limits>
 #include <vector>
 
 #include "core/triangle_mesh.h"
@@ -50,8 +51,12 @@ double mean_edge_mm(const TriangleMesh& mesh);
 /// Cuts a mesh into clusters along the Morton curve through its triangles' centres (Morton 1966,
 /// "A computer oriented geodetic data base"), so that they are compact however the mesh is ordered.
 ///
-/// One thread; about 50 ns a triangle. The result depends on the mesh alone.
+/// @param most_mm  a cluster spans about this along each axis at most, or a single triangle: in
+///                 pictures the kernels draw none that is too wide
+///
+/// One thread; about 50 ns a triangle. The result depends on the arguments alone.
 /// @pre  indices within the positions, which are finite
-MeshClusters cluster_mesh(const TriangleMesh& mesh);
+MeshClusters cluster_mesh(const TriangleMesh& mesh,
+                          double most_mm = std::numeric_limits<double>::infinity());
 
 }  // namespace nacre

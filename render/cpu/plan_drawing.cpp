@@ -22,6 +22,7 @@
 #include "render/projection.h"
 #include "render/ray_ends.h"
 #include "render/ray_frame.h"
+#include "render/tiles.h"
 
 namespace nacre {
 namespace {
@@ -122,6 +123,23 @@ struct Tile {
   ClusterProjection projection;
 };
 
+Tile tile_of(const Camera& camera, const Plan& plan, const SceneMeshes& scene,
+             const PixelRect& rect) {
+  const Camera sampling = with_samples(camera, plan.samples);
+  Tile tile{rect, ray_frame(sampling, scene.center_mm, plan.rays, plan.cue, rect), {}};
+  tile.projection = projection_of(sampling, tile.rays, plan.rays.start_mm, scene.center_mm, rect);
+  return tile;
+}
+
+/// Whether the picture is estimated from ranks that one pass draws.
+bool draws_layers_alone(const Plan& plan) {
+  return !plan.layers.empty() && plan.passes.size() == 1 && plan.tiles.size() == 1;
+}
+
+void in_parallel(int count, const std::function<void(int)>& row) {
+  tbb::parallel_for(0, count, row);
+}
+
 }  // namespace
 
 class PlanDrawing::Targets {
@@ -129,18 +147,15 @@ class PlanDrawing::Targets {
   explicit Targets(InstructionSet instructions) : instructions_(instructions) {}
 
   Picture draw(const Camera& camera, const Plan& plan, const SceneMeshes& scene) {
-    Picture picture{make_image(camera.size.x, camera.size.y), std::nullopt};
     stats_ = {};
-    if (plan.passes.empty()) return picture;
-    if (plan.passes.front().kind == PassKind::ToolLayer) {
-      picture.tools = make_tool_layer(camera.size.x, camera.size.y);
+    Picture picture;
+    if (draws_layers_alone(plan)) {
+      draw_layers(plan, scene, tile_of(camera, plan, scene, plan.tiles.front()), picture.volume);
+    } else {
+      picture.volume = blank_samples(camera, plan, memory_);
+      draw_tiles(camera, plan, scene, picture);
+      finish_picture(plan, picture, memory_, in_parallel);
     }
-    for (const PixelRect& rect : plan.tiles) {
-      Tile tile{rect, ray_frame(camera, scene.center_mm, plan.rays, plan.cue, rect), {}};
-      tile.projection = projection_of(camera, tile.rays, plan.rays.start_mm, scene.center_mm, rect);
-      draw_tile(plan, scene, tile, picture);
-    }
-    drop_unseen_tools(picture);
     stats_.target_bytes = bytes();
     return picture;
   }
@@ -148,13 +163,25 @@ class PlanDrawing::Targets {
   const FrameStats& stats() const { return stats_; }
 
  private:
+  void draw_tiles(const Camera& camera, const Plan& plan, const SceneMeshes& scene,
+                  Picture& picture) {
+    if (plan.passes.empty()) return;
+    if (plan.passes.front().kind == PassKind::ToolLayer) {
+      picture.tools = make_tool_layer(camera.size.x, camera.size.y);
+    }
+    for (const PixelRect& rect : plan.tiles) {
+      draw_tile(plan, scene, tile_of(camera, plan, scene, rect), picture);
+    }
+    drop_unseen_tools(picture);
+  }
+
   void draw_tile(const Plan& plan, const SceneMeshes& scene, const Tile& tile, Picture& picture) {
     if (needs_ends(plan)) ends_.begin({tile.rect.width, tile.rect.height}, tile.rays);
     for (const Pass& pass : plan.passes) {
       stats_.passes += 1;
       stats_.draws += pass.kind == PassKind::ToolLayer ? pass.tools.size() : pass.draws.size();
       switch (pass.kind) {
-        case PassKind::ToolLayer: draw_tools(pass, scene, tile, *picture.tools); break;
+        case PassKind::ToolLayer: draw_tools(plan, pass, scene, tile, *picture.tools); break;
         case PassKind::StartCounts:
         case PassKind::EndCounts: draw_counts(pass, scene, tile, picture.volume); break;
         case PassKind::Sum:
@@ -164,7 +191,8 @@ class PlanDrawing::Targets {
     }
   }
 
-  void draw_tools(const Pass& pass, const SceneMeshes& scene, const Tile& tile, ToolLayer& layer) {
+  void draw_tools(const Plan& plan, const Pass& pass, const SceneMeshes& scene, const Tile& tile,
+                  ToolLayer& layer) {
     std::vector<ClusterDraw<std::uint64_t>> tasks;
     for (const std::uint32_t tool : pass.tools) {
       add_tasks<std::uint64_t>(
@@ -173,19 +201,47 @@ class PlanDrawing::Targets {
     }
     run(tasks, tile, nearest_);
     nearest_.merge([&](int y, std::span<const std::uint64_t> seen) {
-      const std::size_t first =
-          static_cast<std::size_t>(tile.rect.y + y) * static_cast<std::size_t>(layer.width) +
-          static_cast<std::size_t>(tile.rect.x);
       for (std::size_t x = 0; x < seen.size(); ++x) {
         if (seen[x] == 0) continue;
         const NearestKey nearest = nearest_of(seen[x]);
-        const glm::dvec2 pixel(static_cast<double>(x) + 0.5, y + 0.5);
-        layer.colors[first + x] = scene.tools->color_at(nearest, pixel, tile.rays);
-        layer.covered[first + x] = 1;
-        ends_.lower(static_cast<int>(x), y, nearest.depth_mm);
+        const int column = static_cast<int>(x);
+        ends_.lower(column, y, nearest.depth_mm);
+        const auto shown = pixel_of({tile.rect.x + column, tile.rect.y + y}, plan.samples);
+        if (!shown) continue;
+        const std::size_t to =
+            static_cast<std::size_t>(shown->y) * static_cast<std::size_t>(layer.width) +
+            static_cast<std::size_t>(shown->x);
+        layer.colors[to] = scene.tools->color_at(nearest, {column + 0.5, y + 0.5}, tile.rays);
+        layer.covered[to] = 1;
       }
     });
     ends_.find_range();
+  }
+
+  /// A maximum whose ranks are its layers: estimated from them as they are.
+  void draw_layers(const Plan& plan, const SceneMeshes& scene, const Tile& tile, Image& image) {
+    const Pass& pass = plan.passes.front();
+    if (needs_ends(plan)) ends_.begin({tile.rect.width, tile.rect.height}, tile.rays);
+    stats_.passes += 1;
+    stats_.draws += pass.draws.size();
+    if (plan.emission_of_rank.size() <= std::numeric_limits<std::uint8_t>::max() + 1U) {
+      draw_shells(pass, scene, tile, rank_of<std::uint8_t>(plan), bytes_);
+      estimate_between_layers<std::uint8_t>(plan, tile, bytes_, image);
+    } else {
+      draw_shells(pass, scene, tile, rank_of<std::uint16_t>(plan), words_);
+      estimate_between_layers<std::uint16_t>(plan, tile, words_, image);
+    }
+  }
+
+  template <class Rank>
+  static void estimate_between_layers(const Plan& plan, const Tile& tile, ThreadPixels<Rank>& drawn,
+                                      Image& image) {
+    const std::span<Rank> ranks = drawn.merged();
+    black_outside(plan.columns, tile.rect.width, ranks);
+    const LayerSamples<Rank> samples{tile.rect.width / plan.samples,
+                                     tile.rect.height / plan.samples, plan.samples, ranks};
+    dequantize(samples, plan.layers, {}, in_parallel, image);
+    black_outside(middle_spans(plan.columns, plan.samples), image);
   }
 
   void draw_max(const Plan& plan, const Pass& pass, const SceneMeshes& scene, const Tile& tile,
@@ -293,6 +349,7 @@ class PlanDrawing::Targets {
   ThreadPixels<std::int64_t> sums_;
   ThreadPixels<std::uint64_t> nearest_;
   TileEnds ends_;
+  PictureMemory memory_;
   FrameStats stats_;
 };
 

@@ -71,6 +71,14 @@ class ThreadPixels<Pixel>::Layers {
     });
   }
 
+  std::span<Pixel> merged() {
+    target();  // blank, if no thread has drawn
+    merge([](int, std::span<const Pixel>) {});
+    const auto used =
+        std::find_if(layers_.begin(), layers_.end(), [](const auto& layer) { return layer.used; });
+    return std::span(used->pixels).first(used->pixels.size() - kPixelPadding);
+  }
+
   std::size_t bytes() const {
     std::size_t sum = 0;
     for (const Layer<Pixel>& layer : layers_) sum += layer.pixels.size() * sizeof(Pixel);
@@ -104,6 +112,11 @@ PixelTarget<Pixel> ThreadPixels<Pixel>::target() {
 template <class Pixel>
 void ThreadPixels<Pixel>::merge(const std::function<void(int, std::span<const Pixel>)>& show) {
   layers_->merge(show);
+}
+
+template <class Pixel>
+std::span<Pixel> ThreadPixels<Pixel>::merged() {
+  return layers_->merged();
 }
 
 template <class Pixel>

@@ -32,6 +32,9 @@ class ThreadPixels {
   /// @param show  takes the row's number and its pixels
   void merge(const std::function<void(int, std::span<const Pixel>)>& show);
 
+  /// The pixels of all threads, merged, row by row; valid until the next picture begins.
+  std::span<Pixel> merged();
+
   /// Bytes of all threads' pixels.
   std::size_t bytes() const;
 

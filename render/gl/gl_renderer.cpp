@@ -81,8 +81,8 @@ class GlRenderer::Drawing {
     check(plan);
     const CurrentContext current(*opened_.context);
     const Clock::time_point start = Clock::now();
-    Picture picture =
-        pictures_.draw(camera, plan, {scene_.center_mm, pointer(shells_), pointer(tools_)});
+    Picture picture = pictures_.draw(
+        camera, plan, {scene_.center_mm, pointer(shells_), pointer(tools_)}, memory_);
     finish_picture(plan, picture, memory_);
     frame_ = pictures_.stats();
     frame_.seconds = std::chrono::duration<double>(Clock::now() - start).count();
@@ -129,7 +129,7 @@ class GlRenderer::Drawing {
   GlFunctions gl_;
   Capabilities capabilities_;
   PictureDrawing pictures_;
-  std::vector<float> memory_;  // see `finish_picture`
+  PictureMemory memory_;
   std::optional<ShellBuffers> shells_;
   std::optional<ToolBuffers> tools_;
   SceneFacts scene_;

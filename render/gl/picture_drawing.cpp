@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "render/ray_ends.h"
+#include "render/tiles.h"
 
 namespace nacre {
 namespace {
@@ -54,14 +55,18 @@ std::vector<float> ends_of(std::span<const glm::vec4> tools, const RayFrame& ray
   return ends_mm;
 }
 
-void copy_tools(std::span<const glm::vec4> layer, const PixelRect& rect, ToolLayer& tools) {
-  const auto stride = static_cast<std::size_t>(tools.width);
+/// @param samples  a pixel along each axis; what the middle one shows is the pixel's
+void copy_tools(std::span<const glm::vec4> layer, const PixelRect& rect, int samples,
+                ToolLayer& tools) {
   std::size_t from = 0;
   for (int y = 0; y < rect.height; ++y) {
-    std::size_t to =
-        static_cast<std::size_t>(rect.y + y) * stride + static_cast<std::size_t>(rect.x);
-    for (int x = 0; x < rect.width; ++x, ++from, ++to) {
+    for (int x = 0; x < rect.width; ++x, ++from) {
       if (layer[from].w == no_tool_mm()) continue;
+      const std::optional<glm::ivec2> pixel = pixel_of({rect.x + x, rect.y + y}, samples);
+      if (!pixel) continue;
+      const std::size_t to =
+          static_cast<std::size_t>(pixel->y) * static_cast<std::size_t>(tools.width) +
+          static_cast<std::size_t>(pixel->x);
       tools.colors[to] = glm::vec3(layer[from]);
       tools.covered[to] = 1;
     }
@@ -73,14 +78,16 @@ void copy_tools(std::span<const glm::vec4> layer, const PixelRect& rect, ToolLay
 PictureDrawing::PictureDrawing(const GlFunctions& gl)
     : gl_(&gl), max_pass_(gl), crossings_pass_(gl), lit_pass_(gl), tool_pass_(gl) {}
 
-Picture PictureDrawing::draw(const Camera& camera, const Plan& plan, const SceneBuffers& scene) {
-  Picture picture{make_image(camera.size.x, camera.size.y), std::nullopt};
+Picture PictureDrawing::draw(const Camera& shown, const Plan& plan, const SceneBuffers& scene,
+                             PictureMemory& memory) {
+  const Camera camera = with_samples(shown, plan.samples);
+  Picture picture{blank_samples(shown, plan, memory), std::nullopt};
   stats_ = {};
   if (plan.passes.empty()) return picture;
   // The first tile is the largest; the others use a part of its targets.
   largest_tile_ = {plan.tiles.front().width, plan.tiles.front().height};
   if (plan.passes.front().kind == PassKind::ToolLayer) {
-    picture.tools = make_tool_layer(camera.size.x, camera.size.y);
+    picture.tools = make_tool_layer(shown.size.x, shown.size.y);
   }
   for (const PixelRect& rect : plan.tiles) draw_tile(camera, plan, scene, rect, picture);
   check_gl(*gl_, "drawing");
@@ -98,7 +105,7 @@ void PictureDrawing::draw_tile(const Camera& camera, const Plan& plan, const Sce
     run(plan, pass, scene, tile, picture.volume);
     count(pass);
   }
-  if (picture.tools) copy_tools(tile.tools, rect, *picture.tools);
+  if (picture.tools) copy_tools(tile.tools, rect, plan.samples, *picture.tools);
   for (const Pass& pass : plan.passes) {
     const bool at_end = pass.kind == PassKind::EndCounts;
     if (!at_end && pass.kind != PassKind::StartCounts) continue;

@@ -15,6 +15,7 @@
 #include "render/gl/tool_buffers.h"
 #include "render/gl/tool_pass.h"
 #include "render/plan.h"
+#include "render/shell_renderer.h"
 
 namespace nacre {
 
@@ -34,7 +35,9 @@ class PictureDrawing {
 
   /// @pre            the context is current; the buffers hold what the plan draws
   /// @throws Error   Unsupported if the driver fails
-  Picture draw(const Camera& camera, const Plan& plan, const SceneBuffers& scene);
+  /// @return        its volume as large as what is drawn: `finish_picture` makes a picture of it
+  Picture draw(const Camera& camera, const Plan& plan, const SceneBuffers& scene,
+               PictureMemory& memory);
 
   /// Of the last picture, without its seconds.
   const FrameStats& stats() const noexcept { return stats_; }

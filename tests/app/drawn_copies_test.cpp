@@ -57,7 +57,7 @@ class CoarseCopies : public testing::CommandTest {
 
 TEST_F(CoarseCopies, AreAsFarFromTheExactPicturesAsTheFileStates) {
   const json stated = figures("info set.glb").at("coarse");
-  for (const std::string mode : {"max", "max_smooth", "sum"}) {
+  for (const std::string mode : {"max", "max_fine", "sum"}) {
     const double rmse = stated.at(mode).at("rmse").get<double>();
     EXPECT_NEAR(root_mean_square(mode), rmse, 0.02 * rmse) << mode;  // drawn, not by rays
   }
@@ -71,10 +71,9 @@ TEST_F(CoarseCopies, AreSaidWithTheErrorOfThePictureDrawn) {
   const json stated = figures("info set.glb").at("coarse");
   EXPECT_EQ(stated.at("tolerance"), 0.125);
   const std::string render = "render set.glb --backend osmesa --size 64x64 -o a.tif ";
-  for (const auto& [flags, stated_as, words] :
-       {std::tuple{"max", "max_smooth", "error of maxima: "},
-        {"max --layers flat", "max", "error of maxima: "},
-        {"sum", "sum", "error of sums: "}}) {
+  for (const auto& [flags, stated_as, words] : {std::tuple{"max", "max_fine", "error of maxima: "},
+                                                {"max --layers flat", "max", "error of maxima: "},
+                                                {"sum", "sum", "error of sums: "}}) {
     const std::string text = nacre(render + "--coarse --explain --mode " + flags).output;
     const std::size_t at = text.find(words);
     ASSERT_NE(at, std::string::npos) << text;

@@ -259,7 +259,7 @@ TEST_F(ShellCommand, ACertificateIsWhatReferenceAndCompareMeasure) {
   ASSERT_EQ(certificate["views"].size(), 7u);
   for (const std::size_t i : {std::size_t{2}, std::size_t{5}}) {
     const json& view = certificate["views"][i];
-    for (const std::string measured : {"max", "max_smooth", "sum"}) {
+    for (const std::string measured : {"max", "max_fine", "sum"}) {
       const std::string mode = measured == "sum" ? "sum" : "max";
       const std::string picture = " --mode " + mode + " --size 96x96 --view " +
                                   view["view"].get<std::string>() + " --azimuth " +
@@ -274,35 +274,37 @@ TEST_F(ShellCommand, ACertificateIsWhatReferenceAndCompareMeasure) {
           << measured << " " << i;
       EXPECT_NEAR(view[measured]["psnr_lit_db"].get<double>(),
                   compared["lit"]["psnr_db"].get<double>(), 0.1);
-      if (measured == "max_smooth") continue;
+      if (measured == "max_fine") continue;
       EXPECT_NEAR(view[measured]["peak"].get<double>(), compared["peak"].get<double>(),
                   1e-4 * view[measured]["peak"].get<double>());
     }
   }
-  EXPECT_LT(certificate["max_smooth"]["rmse"], certificate["max"]["rmse"]);
-  EXPECT_NE(nacre("info c.glb").output.find("certified    max, smooth layers: "),
-            std::string::npos);
+  EXPECT_LT(certificate["max_fine"]["rmse"], certificate["max"]["rmse"]);
+  EXPECT_NE(nacre("info c.glb").output.find("certified    max, fine layers: "), std::string::npos);
 }
 
-TEST_F(ShellCommand, LayersAreSmoothOrFlat) {
+TEST_F(ShellCommand, LayersAreFineSmoothOrFlat) {
   ASSERT_EQ(nacre("reference ball.nii --window 0,28 -o exact.tif").status, 0);
-  const auto rmse = [&](const std::string& flags) {
+  const auto rmse = [&](const std::string& flags, const std::string& layers) {
     const CommandResult drawn = nacre("render ball.glb --backend cpu -o a.tif --json - " + flags);
     EXPECT_EQ(drawn.status, 0) << drawn.errors;
-    EXPECT_EQ(json::parse(drawn.output)["smooth_layers"], flags != "--layers flat");
+    EXPECT_EQ(json::parse(drawn.output)["layers"], layers);
     return json::parse(nacre("compare a.tif exact.tif --json -").output)["all"]["rmse"]
         .get<double>();
   };
-  const double smooth = rmse("");
-  EXPECT_EQ(smooth, rmse("--layers smooth"));
-  EXPECT_LT(smooth, 0.8 * rmse("--layers flat"));
+  const double fine = rmse("", "fine");
+  const double smooth = rmse("--layers smooth", "smooth");
+  EXPECT_EQ(fine, rmse("--layers fine", "fine"));
+  EXPECT_LE(fine, smooth);
+  EXPECT_LT(smooth, 0.8 * rmse("--layers flat", "flat"));
   const CommandResult said = nacre("render ball.glb --backend cpu --explain -o a.tif");
-  EXPECT_NE(said.output.find("smooth   8 layers"), std::string::npos) << said.output;
+  EXPECT_NE(said.output.find("fine     8 layers"), std::string::npos) << said.output;
+  EXPECT_NE(said.output.find("from 3 x 3 rays a pixel"), std::string::npos) << said.output;
   const CommandResult cued =
       nacre("render ball.glb --backend cpu --cue 0.5,0.5,0 --explain -o a.tif");
   EXPECT_NE(cued.output.find("left out smooth layers: under a cue"), std::string::npos);
   expect_refusal("render ball.glb --layers round -o a.tif", 2,
-                 "--layers: found 'round', expected smooth or flat");
+                 "--layers: found 'round', expected fine, smooth or flat");
 }
 
 TEST_F(ShellCommand, ACertificateMayBeLeftOut) {
@@ -385,7 +387,7 @@ TEST_F(ShellCommand, ABudgetHoldsAndALargerOneGivesNoWorsePicture) {
     EXPECT_EQ(result.errors.find("warning"), std::string::npos) << result.errors;
     EXPECT_LE(std::filesystem::file_size(folder_.path() / "b.glb"), bytes);
     const json figures = json::parse(result.output);
-    const double psnr_db = figures["certificate"]["max_smooth"]["psnr_db"];
+    const double psnr_db = figures["certificate"]["max_fine"]["psnr_db"];
     EXPECT_GE(psnr_db, before) << bytes;
     before = psnr_db;
     for (const json& trial : figures["budget"]["trials"]) {

@@ -1,5 +1,5 @@
 // Maxima between the levels: the filter solves its equations, pixels stay in their layers, errors
-// shrink, and nothing depends on the order of rows.
+// shrink, more with more rays a pixel, and nothing depends on the order of rows.
 #include "core/dequantization.h"
 
 #include <gtest/gtest.h>
@@ -59,11 +59,32 @@ double rmse(const Image& a, const Image& b) {
   return std::sqrt(squares / static_cast<double>(a.pixels.size()));
 }
 
-double gain_db(const Image& truth, std::span<const LayerLevel> levels) {
-  const Image flat = quantized(truth, levels);
-  Image smooth = flat;
-  dequantize(smooth, layer_ranges(levels));
-  return 20.0 * std::log10(rmse(truth, flat) / rmse(truth, smooth));
+/// Of an estimate from so many rays a pixel along each axis beside the layers alone.
+double gain_db(const Image& truth, std::span<const LayerLevel> levels, int per_pixel = 1) {
+  const Image exact = middle_samples(truth, per_pixel);
+  const Image flat = quantized(exact, levels);
+  DequantizationMemory memory;
+  Image estimate;
+  dequantize(quantized(truth, levels), per_pixel, layer_ranges(levels), {}, {}, memory, estimate);
+  return 20.0 * std::log10(rmse(exact, flat) / rmse(exact, estimate));
+}
+
+/// The number of each sample's layer.
+template <class Rank>
+std::vector<Rank> ranks_of(const Image& shown, std::span<const LayerRange> layers) {
+  std::vector<Rank> ranks;
+  for (const float pixel : shown.pixels) {
+    const auto layer = std::ranges::find(layers, pixel, &LayerRange::shown);
+    EXPECT_NE(layer, layers.end());
+    ranks.push_back(static_cast<Rank>(layer - layers.begin()));
+  }
+  return ranks;
+}
+
+using Bytes = std::vector<std::uint8_t>;
+
+LayerSamples<std::uint8_t> samples_of(const Image& shown, const Bytes& ranks, int per_pixel = 1) {
+  return {shown.width / per_pixel, shown.height / per_pixel, per_pixel, ranks};
 }
 
 /// The class of neighbours so many steps aside and below.
@@ -73,16 +94,29 @@ std::size_t class_of(int dx, int dy) {
   return static_cast<std::size_t>(found - kSquares.begin());
 }
 
-/// The differences of a pixel's neighbours to it, by class, one at a time.
-std::array<double, 5> differences(const Image& image, int stride, int x, int y) {
+/// The rank of a sample, or of the nearest within the picture.
+int rank_at(const LayerSamples<std::uint8_t>& samples, int x, int y) {
+  const int width = samples.width * samples.per_pixel;
+  x = std::clamp(x, 0, width - 1);
+  y = std::clamp(y, 0, samples.height * samples.per_pixel - 1);
+  return samples.ranks[static_cast<std::size_t>(y * width + x)];
+}
+
+int middle(const LayerSamples<std::uint8_t>& samples, int pixel) {
+  return pixel * samples.per_pixel + samples.per_pixel / 2;
+}
+
+/// The differences of the samples around a pixel's centre to it, by class, one at a time.
+std::array<double, 5> differences(const LayerSamples<std::uint8_t>& samples, int stride, int x,
+                                  int y) {
   std::array<double, 5> sums{};
-  const auto pixel = [&](int i, int j) {
-    return double{image.at(std::clamp(i, 0, image.width - 1), std::clamp(j, 0, image.height - 1))};
-  };
+  const int column = middle(samples, x);
+  const int row = middle(samples, y);
   for (int dy = -2; dy <= 2; ++dy) {
     for (int dx = -2; dx <= 2; ++dx) {
       if (dx == 0 && dy == 0) continue;
-      sums[class_of(dx, dy)] += pixel(x + stride * dx, y + stride * dy) - pixel(x, y);
+      sums[class_of(dx, dy)] +=
+          rank_at(samples, column + stride * dx, row + stride * dy) - rank_at(samples, column, row);
     }
   }
   return sums;
@@ -113,27 +147,26 @@ TEST(Dequantization, RepresentativesOutsideTheirLayersMakeNoLayers) {
 }
 
 /// What the normal equations leave of a filter, in parts of their right sides.
-std::array<double, 5> residuals(const Image& shown, std::span<const LayerRange> layers,
+std::array<double, 5> residuals(const LayerSamples<std::uint8_t>& samples,
                                 const LayerFilter& filter) {
   std::array<std::array<double, 5>, 5> products{};
   std::array<std::array<double, 5>, 5> squares{};  // by how far aside (from -2) and below
-  double widths = 0.0;
-  const auto pixel = [&](int x, int y) {
-    return double{shown.at(std::clamp(x, 0, shown.width - 1), std::clamp(y, 0, shown.height - 1))};
-  };
-  for (int y = 0; y < shown.height; ++y) {
-    for (int x = 0; x < shown.width; ++x) {
-      if (shown.at(x, y) == 0.0F) continue;
-      const auto layer = std::ranges::find(layers, shown.at(x, y), &LayerRange::shown);
-      widths += std::pow(double{layer->hi} - double{layer->lo}, 2);
-      const std::array<double, 5> own = differences(shown, filter.stride, x, y);
+  double pixels = 0.0;
+  for (int y = 0; y < samples.height; ++y) {
+    for (int x = 0; x < samples.width; ++x) {
+      const int column = middle(samples, x);
+      const int row = middle(samples, y);
+      const int here = rank_at(samples, column, row);
+      if (here == 0) continue;
+      pixels += 1.0;
+      const std::array<double, 5> own = differences(samples, filter.stride, x, y);
       for (std::size_t i = 0; i < 5; ++i) {
         for (std::size_t j = 0; j < 5; ++j) products[i][j] += own[i] * own[j];
       }
       for (int dy = 0; dy <= 2; ++dy) {
         for (int dx = -2; dx <= 2; ++dx) {
-          squares[std::size_t(dx + 2)][std::size_t(dy)] +=
-              std::pow(pixel(x + filter.stride * dx, y + filter.stride * dy) - pixel(x, y), 2);
+          const int there = rank_at(samples, column + filter.stride * dx, row + filter.stride * dy);
+          squares[std::size_t(dx + 2)][std::size_t(dy)] += std::pow(there - here, 2);
         }
       }
     }
@@ -142,14 +175,14 @@ std::array<double, 5> residuals(const Image& shown, std::span<const LayerRange> 
   for (int dy = 0; dy <= 2; ++dy) {
     for (int dx = -2; dx <= 2; ++dx) {
       if (dy == 0 && dx <= 0) continue;
-      const double mean = squares[std::size_t(dx + 2)][std::size_t(dy)] / widths;
+      const double mean = squares[std::size_t(dx + 2)][std::size_t(dy)] / pixels;
       const double slope = mean < 0.5 ? mean * (1.0 - mean) / 2.0 : 1.0;
-      right[class_of(dx, dy)] += 2.0 * widths * std::min(slope, 1.0 / 12.0);
+      right[class_of(dx, dy)] += 2.0 * pixels * std::min(slope, 1.0 / 12.0);
     }
   }
   std::array<double, 5> rest{};
   for (std::size_t i = 0; i < 5; ++i) {
-    rest[i] = 0.2 * widths * filter.weights[i] - right[i];
+    rest[i] = 0.2 * pixels * filter.weights[i] - right[i];
     for (std::size_t j = 0; j < 5; ++j) rest[i] += products[i][j] * filter.weights[j];
     rest[i] /= right[i];
   }
@@ -158,41 +191,97 @@ std::array<double, 5> residuals(const Image& shown, std::span<const LayerRange> 
 
 TEST(Dequantization, WeightsSolveTheNormalEquations) {
   const std::vector<LayerRange> layers = layer_ranges(uniform(12));
-  int widest = 0;
-  for (const double wave : {15.0, 37.0, 150.0, 700.0, 3000.0}) {
-    const Image shown = quantized(waves(97, 61, wave), uniform(12));
-    const LayerFilter filter = layer_filter(shown, layers);
-    widest = std::max(widest, filter.stride);
-    for (const double rest : residuals(shown, layers, filter)) EXPECT_NEAR(rest, 0.0, 1e-3) << wave;
+  for (const int per_pixel : {1, 3, 5}) {
+    int widest = 0;
+    for (const double wave : {15.0, 37.0, 150.0, 700.0, 3000.0}) {
+      const Image shown =
+          quantized(waves(97 * per_pixel, 61 * per_pixel, wave * per_pixel), uniform(12));
+      const Bytes ranks = ranks_of<std::uint8_t>(shown, layers);
+      const LayerSamples<std::uint8_t> samples = samples_of(shown, ranks, per_pixel);
+      const LayerFilter filter = layer_filter(samples);
+      widest = std::max(widest, filter.stride);
+      for (const double rest : residuals(samples, filter)) {
+        EXPECT_NEAR(rest, 0.0, 1e-9) << per_pixel << ' ' << wave;
+      }
+    }
+    EXPECT_GT(widest, 2);
   }
-  EXPECT_GT(widest, 2);
+}
+
+/// Emission of a layer so far from its middle, in layers.
+double emission_at(const LayerRange& layer, double away) {
+  const double part = std::clamp(2.0 * away, -1.0, 1.0);
+  return double{layer.shown} + part * (part < 0.0 ? double{layer.shown} - double{layer.lo}
+                                                  : double{layer.hi} - double{layer.shown});
 }
 
 TEST(Dequantization, PixelsAreWhatTheFilterSaysWithinTheirLayers) {
   const std::vector<LayerLevel> levels{{0.1, 0.15}, {0.2, 0.3}, {0.45, 0.5}, {0.6, 0.9}};
   const std::vector<LayerRange> layers = layer_ranges(levels);
-  int widest = 0;
-  for (const int width : {1, 2, 3, 31, 32, 33, 67, 131}) {
-    for (const double wave : {9.0, 30.0, 200.0, 2000.0}) {
-      const Image shown = quantized(waves(width, 70, wave), levels);
-      const LayerFilter filter = layer_filter(shown, layers);
-      widest = std::max(widest, filter.stride);
-      Image smooth = shown;
-      dequantize(smooth, layers);
-      for (int y = 0; y < shown.height; ++y) {
-        for (int x = 0; x < shown.width; ++x) {
-          double value = shown.at(x, y);
-          const std::array<double, 5> own = differences(shown, filter.stride, x, y);
-          for (std::size_t i = 0; i < 5; ++i) value += filter.weights[i] * own[i];
-          const auto layer = std::ranges::find(layers, shown.at(x, y), &LayerRange::shown);
-          ASSERT_NE(layer, layers.end());
-          value = std::clamp(value, double{layer->lo}, double{layer->hi});
-          ASSERT_NEAR(smooth.at(x, y), value, 2e-5) << width << ' ' << wave << ' ' << x << ' ' << y;
+  for (const int per_pixel : {1, 3, 5}) {
+    int widest = 0;
+    for (const int width : {1, 2, 3, 31, 32, 33, 67, 131}) {
+      for (const double wave : {9.0, 30.0, 200.0, 2000.0, 9000.0}) {
+        const Image shown = quantized(waves(width * per_pixel, 70 * per_pixel, wave), levels);
+        const Bytes ranks = ranks_of<std::uint8_t>(shown, layers);
+        const LayerSamples<std::uint8_t> samples = samples_of(shown, ranks, per_pixel);
+        const LayerFilter filter = layer_filter(samples);
+        widest = std::max(widest, filter.stride);
+        Image smooth;
+        dequantize(samples, layers, {}, {}, smooth);
+        for (int y = 0; y < samples.height; ++y) {
+          for (int x = 0; x < samples.width; ++x) {
+            double away = 0.0;
+            const std::array<double, 5> own = differences(samples, filter.stride, x, y);
+            for (std::size_t i = 0; i < 5; ++i) away += filter.weights[i] * own[i];
+            const int rank = rank_at(samples, middle(samples, x), middle(samples, y));
+            ASSERT_NEAR(smooth.at(x, y), emission_at(layers[std::size_t(rank)], away), 2e-5)
+                << per_pixel << ' ' << width << ' ' << wave << ' ' << x << ' ' << y;
+          }
         }
       }
     }
+    EXPECT_GE(widest, 16) << per_pixel;
   }
-  EXPECT_EQ(widest, 16);
+}
+
+TEST(Dequantization, PicturesOfRepresentativesAreThoseOfTheirLayers) {
+  const std::vector<LayerLevel> levels{{0.1, 0.15}, {0.2, 0.3}, {0.45, 0.5}, {0.6, 0.9}};
+  const std::vector<LayerRange> layers = layer_ranges(levels);
+  const Image shown = quantized(waves(3 * 83, 3 * 41, 90.0), levels);
+  const Bytes ranks = ranks_of<std::uint8_t>(shown, layers);
+  const auto words = ranks_of<std::uint16_t>(shown, layers);
+  Image of_bytes;
+  Image of_words;
+  Image of_picture;
+  DequantizationMemory memory;
+  dequantize(samples_of(shown, ranks, 3), layers, {}, {}, of_bytes);
+  dequantize(LayerSamples<std::uint16_t>{83, 41, 3, words}, layers, {}, {}, of_words);
+  dequantize(shown, 3, layers, {}, {}, memory, of_picture);
+  EXPECT_EQ(of_bytes.pixels, of_words.pixels);
+  EXPECT_EQ(of_bytes.pixels, of_picture.pixels);
+  EXPECT_NE(of_bytes.pixels, middle_samples(shown, 3).pixels);
+}
+
+// Where layers are a pixel wide or less; where they are wide, pixels tell as much.
+TEST(Dequantization, MoreRaysAPixelTellMore) {
+  for (const int levels : {6, 12, 24}) {
+    for (const double wave : {8.0, 14.0, 150.0}) {
+      const double one = gain_db(waves(200, 200, wave), uniform(levels));
+      const double nine = gain_db(waves(600, 600, 3.0 * wave), uniform(levels), 3);
+      EXPECT_GT(nine, wave < 100.0 ? one + 1.0 : one - 1.0) << levels << ' ' << wave;
+      EXPECT_GT(nine, 2.0) << levels << ' ' << wave;
+    }
+  }
+}
+
+TEST(Dequantization, TheMiddleOfAPixelIsThePixel) {
+  const Image samples = waves(15, 9, 20.0);
+  const Image pixels = middle_samples(samples, 3);
+  ASSERT_EQ(pixels.width, 5);
+  ASSERT_EQ(pixels.height, 3);
+  EXPECT_EQ(pixels.at(4, 2), samples.at(13, 7));
+  EXPECT_EQ(middle_samples(samples, 1).pixels, samples.pixels);
 }
 
 /// A straight vessel with a profile, a cone and a pyramid: pictures that vary in few ways.
@@ -221,7 +310,10 @@ TEST(Dequantization, StraightVesselsConesAndPyramidsComeNearer) {
     int shape = 0;
     for (const Image& truth : simple_shapes(radius)) {
       for (const int levels : {6, 12, 24}) {
-        EXPECT_GT(gain_db(truth, uniform(levels)), 0.0) << radius << ' ' << shape << ' ' << levels;
+        for (const int per_pixel : {1, 3}) {
+          EXPECT_GT(gain_db(truth, uniform(levels), per_pixel), 0.0)
+              << radius << ' ' << shape << ' ' << levels << ' ' << per_pixel;
+        }
       }
       ++shape;
     }
@@ -241,7 +333,8 @@ TEST(Dequantization, StripesStayFinite) {
         image.at(x, y) = layers[static_cast<std::size_t>(layer_of[stripe])].shown;
       }
     }
-    for (const double weight : layer_filter(image, layers).weights) {
+    const Bytes ranks = ranks_of<std::uint8_t>(image, layers);
+    for (const double weight : layer_filter(samples_of(image, ranks)).weights) {
       EXPECT_LT(std::abs(weight), 1.0);
     }
     dequantize(image, layers);
@@ -261,8 +354,9 @@ TEST(Dequantization, WideLayersAreFilteredInLargerSteps) {
   const std::vector<LayerLevel> levels = uniform(6);
   int before = 0;
   for (const double wave : {20.0, 120.0, 480.0, 2000.0}) {
-    const int stride =
-        layer_filter(quantized(waves(256, 256, wave), levels), layer_ranges(levels)).stride;
+    const Image shown = quantized(waves(256, 256, wave), levels);
+    const Bytes ranks = ranks_of<std::uint8_t>(shown, layer_ranges(levels));
+    const int stride = layer_filter(samples_of(shown, ranks)).stride;
     EXPECT_GE(stride, before);
     before = stride;
   }

@@ -133,5 +133,28 @@ TEST(VolumeSilhouette, BlacksWhatIsOutside) {
   EXPECT_EQ(picture.pixels, (std::vector<float>{1, 1, 1, 1, 0, 1, 1, 0, 0, 0, 0, 0}));
 }
 
+TEST(VolumeSilhouette, PixelsShowWhereTheirMiddleRaysDo) {
+  std::vector<PixelSpan> rays;
+  for (int y = 0; y < 21; ++y) rays.push_back({y / 2, 18 - y / 3});
+  rays.push_back({7, 7});  // none
+  rays.push_back({0, 0});
+  rays.push_back({0, 24});
+  for (const int per_pixel : {1, 3}) {
+    const std::vector<PixelSpan> pixels = middle_spans(rays, per_pixel);
+    ASSERT_EQ(pixels.size(), rays.size() / static_cast<std::size_t>(per_pixel));
+    for (std::size_t y = 0; y < pixels.size(); ++y) {
+      const PixelSpan& span =
+          rays[y * static_cast<std::size_t>(per_pixel) + static_cast<std::size_t>(per_pixel / 2)];
+      for (int x = 0; x < 24 / per_pixel; ++x) {
+        const int middle = x * per_pixel + per_pixel / 2;
+        EXPECT_EQ(x >= pixels[y].first && x < pixels[y].end,
+                  middle >= span.first && middle < span.end)
+            << per_pixel << ' ' << y << ' ' << x;
+      }
+    }
+  }
+  EXPECT_TRUE(middle_spans({}, 3).empty());
+}
+
 }  // namespace
 }  // namespace nacre

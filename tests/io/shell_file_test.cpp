@@ -217,7 +217,7 @@ TEST(ShellFile, SaysWhatItsCoarseCopiesAre) {
   ASSERT_TRUE(info.coarse.has_value());
   EXPECT_EQ(info.coarse->tolerance, 0.1);
   EXPECT_EQ(info.coarse->max_error_json, R"({"psnr_db":40.5})");
-  EXPECT_EQ(info.coarse->max_smooth_error_json, R"({"psnr_db":41.5})");
+  EXPECT_EQ(info.coarse->max_fine_error_json, R"({"psnr_db":41.5})");
   EXPECT_EQ(info.coarse->sum_error_json, R"({"psnr_db":50.5})");
   ASSERT_EQ(info.coarse->levels.size(), 4u);
   ASSERT_TRUE(info.coarse->levels[0].has_value());

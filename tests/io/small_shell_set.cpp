@@ -51,7 +51,7 @@ ShellSet small_coarse_set() {
 std::vector<std::byte> small_file_with_copies() {
   CoarseShells coarse{.tolerance = 0.1,
                       .max_error_json = R"({"psnr_db":40.5})",
-                      .max_smooth_error_json = R"({"psnr_db":41.5})",
+                      .max_fine_error_json = R"({"psnr_db":41.5})",
                       .sum_error_json = R"({"psnr_db":50.5})"};
   for (Shell& shell : small_coarse_set().shells) {
     coarse.shells.push_back(compress_shell(std::move(shell.surface), *small_shell_set().grid));

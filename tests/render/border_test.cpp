@@ -78,8 +78,8 @@ TEST_P(Border, PicturesEndWhereTheVolumeDoes) {
   if (is_skipped()) GTEST_SKIP() << "no OpenGL on this machine";
   for (const Camera& camera : cameras(sphere_, {81, 60})) {
     const Image way_mm = exact_picture(walk_, camera, {.mode = PictureMode::Sum}).volume;
-    for (const bool smooth : {false, true}) {
-      const Picture max = draw_set(set_, camera, {.smooth_layers = smooth});
+    for (const Layers layers : {Layers::Flat, Layers::Smooth, Layers::Fine}) {
+      const Picture max = draw_set(set_, camera, {.layers = layers});
       expect_same(max.volume, exact_picture(walk_, camera).volume, way_mm);
     }
     const Image sum = draw_set(set_, camera, {.mode = PictureMode::Sum}).volume;

@@ -61,26 +61,31 @@ class CpuCuts : public BothRenderers {
 
 // Beside a vessel, a tool's pixels are not tinged by what lies behind the tool.
 TEST_F(CpuCuts, SmoothLayersLeaveTheToolsBackgroundAlone) {
-  const RenderOptions flat;
-  const RenderOptions smooth{.smooth_layers = true};
   std::size_t changed = 0;
   std::size_t black = 0;
   for (const Camera& camera : cameras(scan_.sphere, {160, 120})) {
     for (const std::vector<Tool>& tools : tools_about(scan_.sphere, camera)) {
       set_tools(tools);
-      const auto [ours, theirs] = draw_both(camera, smooth, 4096);
-      const Picture before = draw_both(camera, flat, 4096).first;
-      Difference difference;
-      difference.add(ours, theirs);
-      EXPECT_LE(difference.volume, difference.pixels / 1000);
-      if (!ours.tools) continue;
-      for (std::size_t i = 0; i < ours.volume.pixels.size(); ++i) {
-        const bool tool_alone = ours.tools->covered[i] != 0 && before.volume.pixels[i] == 0.0F;
-        if (tool_alone) {
-          EXPECT_EQ(ours.volume.pixels[i], 0.0F);
-          ++black;
+      const Picture before = draw_both(camera, {}, 4096).first;
+      for (const Layers layers : {Layers::Smooth, Layers::Fine}) {
+        const auto [ours, theirs] = draw_both(camera, {.layers = layers}, 4096);
+        const int samples = layers == Layers::Fine ? 3 : 1;
+        const Image flat = middle_samples(
+            draw_both(with_samples(camera, samples), {}, 4096).first.volume, samples);
+        Difference difference;
+        difference.add(ours, theirs);
+        EXPECT_LE(difference.volume, difference.pixels / 1000);
+        EXPECT_EQ(ours.tools.has_value(), before.tools.has_value());
+        if (!ours.tools) continue;
+        EXPECT_EQ(ours.tools->covered, before.tools->covered);
+        for (std::size_t i = 0; i < ours.volume.pixels.size(); ++i) {
+          const bool tool_alone = ours.tools->covered[i] != 0 && flat.pixels[i] == 0.0F;
+          if (tool_alone) {
+            EXPECT_EQ(ours.volume.pixels[i], 0.0F);
+            ++black;
+          }
+          if (ours.volume.pixels[i] != flat.pixels[i]) ++changed;
         }
-        if (ours.volume.pixels[i] != before.volume.pixels[i]) ++changed;
       }
     }
   }

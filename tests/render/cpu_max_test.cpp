@@ -34,12 +34,18 @@ TEST(CpuMax, SmoothLayersAreWhatTheFilterMakesOfFlatOnes) {
   const Scan scan = small_angiogram();
   for (const Camera& camera : cameras(scan.sphere, {161, 120})) {
     for (const Slab& slab : slabs(scan.sphere.radius_mm)) {
-      RenderOptions options{.slab = slab};
-      Image expected = draw(scan.set, camera, options);
-      options.smooth_layers = true;
-      const Image smooth = draw(scan.set, camera, options);
-      dequantize(expected, make_plan(scene_facts(scan.set), camera, options).layers);
-      EXPECT_EQ(smooth.pixels, expected.pixels);
+      for (const Layers layers : {Layers::Smooth, Layers::Fine}) {
+        const RenderOptions options{.slab = slab, .layers = layers};
+        const Plan plan = make_plan(scene_facts(scan.set), camera, options);
+        EXPECT_EQ(plan.samples, layers == Layers::Fine ? 3 : 1);
+        const Image flat = draw(scan.set, with_samples(camera, plan.samples), {.slab = slab});
+        DequantizationMemory memory;
+        Image expected;
+        dequantize(flat, plan.samples, plan.layers, {}, {}, memory, expected);
+        const Image drawn = draw(scan.set, camera, options);
+        EXPECT_EQ(drawn.width, camera.size.x);
+        EXPECT_EQ(drawn.pixels, expected.pixels);
+      }
     }
   }
 }

@@ -51,13 +51,14 @@ TEST(Plan, EstimatesBetweenLevelsWhereAPixelTellsItsLayer) {
   SceneFacts facts = scene();
   double level = 0.5;
   for (ShellFacts& shell : facts.shells) shell.emission = level++ / 3.0;
-  const RenderOptions smooth{.smooth_layers = true};
+  const RenderOptions smooth{.layers = Layers::Smooth};
   EXPECT_TRUE(plan_of(facts).layers.empty());
   EXPECT_EQ(why(plan_of(facts), "smooth layers"), "");
   const Plan plan = plan_of(facts, smooth);
   ASSERT_EQ(plan.layers.size(), 4U);
   for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(plan.layers[i].shown, plan.emission_of_rank[i]);
   EXPECT_FLOAT_EQ(plan.layers[2].lo, 0.5F);
+  EXPECT_EQ(plan.samples, 1);
 
   RenderOptions other = smooth;
   other.cue = {.a = 0.0, .b = 0.7};  // one factor
@@ -77,6 +78,36 @@ TEST(Plan, EstimatesBetweenLevelsWhereAPixelTellsItsLayer) {
   facts.shells[1].emission = 0.7;  // above what it is shown as
   EXPECT_NE(why(plan_of(facts, smooth), "smooth layers").find("outside its layer"),
             std::string::npos);
+}
+
+TEST(Plan, FineLayersTakeNineRaysAPixelWherePicturesAreNotLarge) {
+  SceneFacts facts = scene();
+  double level = 0.5;
+  for (ShellFacts& shell : facts.shells) shell.emission = level++ / 3.0;
+  const Plan plan = plan_of(facts, {.layers = Layers::Fine});
+  EXPECT_EQ(plan.samples, 3);
+  EXPECT_EQ(layers_drawn(plan), Layers::Fine);
+  const PixelRect& last = plan.tiles.back();
+  EXPECT_EQ(last.x + last.width, 3 * CameraOptions{}.size.x);
+  EXPECT_EQ(last.y + last.height, 3 * CameraOptions{}.size.y);
+  Camera large = make_camera({}, kSphere);
+  large.size = {8192, 2048};  // nine times 17 million rays
+  const Plan coarse = make_plan(facts, large, {.layers = Layers::Fine}, {});
+  EXPECT_EQ(layers_drawn(coarse), Layers::Smooth);
+  EXPECT_NE(why(coarse, "fine layers").find("large"), std::string::npos);
+}
+
+// A shell that no ray can meet has no rank, and the layer below ends where it would begin.
+TEST(Plan, LayersAreThoseOfTheRanks) {
+  SceneFacts facts = scene();
+  double level = 0.5;
+  for (ShellFacts& shell : facts.shells) shell.emission = level++ / 3.0;
+  facts.shells[1].triangles = 0;
+  const Plan plan = plan_of(facts, {.layers = Layers::Smooth});
+  ASSERT_EQ(plan.layers.size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(plan.layers[i].shown, plan.emission_of_rank[i]);
+  EXPECT_FLOAT_EQ(plan.layers[1].hi, 0.5F);
+  EXPECT_FLOAT_EQ(plan.layers[2].lo, 2.5F / 3.0F);
 }
 
 TEST(Plan, LeavesOutHiddenShells) {
