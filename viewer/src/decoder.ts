@@ -5,6 +5,7 @@
 import { createDecoderModule } from "draco3dgltf";
 import wasm from "draco3dgltf/draco_decoder_gltf.wasm";
 import createHashes from "xxhash-wasm";
+import { moveWithin, type Border } from "./border";
 import type { MeshData } from "./meshes";
 
 export interface DecodeRequest {
@@ -15,6 +16,8 @@ export interface DecodeRequest {
   vertices: number;
   lo: readonly number[];
   hi: readonly number[];
+  /** Of the volume, where the set states one. */
+  border: Border | null;
   normals: boolean;
 }
 
@@ -45,6 +48,7 @@ function decode(draco: any, request: DecodeRequest): MeshData {
     }
     const positions = positionsOf(draco, decoder, mesh);
     checkBounds(positions, request);
+    if (request.border) moveWithin(positions, request.border);
     const indices = indicesOf(draco, decoder, mesh);
     return { positions, indices, normals: request.normals ? vertexNormals(positions, indices) : null };
   } finally {

@@ -128,7 +128,7 @@ export class ShellLoader {
     this.decoder.send({
       id: this.inFlight.id, bytes: surface.bytes.slice(), checksum: surface.checksum,
       triangles: surface.triangles, vertices: surface.vertices, lo: surface.bounds.lo,
-      hi: surface.bounds.hi, normals: this.normals,
+      hi: surface.bounds.hi, border: surface.border, normals: this.normals,
     });
   }
 

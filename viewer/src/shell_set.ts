@@ -2,6 +2,7 @@
  * A shell set (.glb) and its directory, `extras.nacre`: see docs/shell_file.md. Every length is
  * checked against the file; nothing is decoded here.
  */
+import { borderOf, boxOf, type Border } from "./border";
 import type { Sphere } from "./camera";
 import type { Box } from "./projection";
 import { length, type Vec3 } from "./vector";
@@ -17,6 +18,8 @@ export interface Surface {
   vertices: number;
   /** Of positions, mm relative to the set's centre. */
   bounds: Box;
+  /** Of the volume, if that has an inside. */
+  border: Border | null;
   /** Compressed bytes; empty for a level that the volume does not reach. */
   bytes: Uint8Array;
   checksum: string;
@@ -114,11 +117,13 @@ const around = (a: Box, b: Box): Box => ({
 });
 
 /** The surface that a level, or its copy, speaks of. */
-function surfaceOf(chunks: Chunks, given: Json, where: string, name: string): Surface {
+function surfaceOf(
+  chunks: Chunks, border: Border | null, given: Json, where: string, name: string,
+): Surface {
   if (given.mesh === null) {
     const nowhere: Vec3 = [0, 0, 0];
     return { name, triangles: 0, vertices: 0, checksum: "", bytes: new Uint8Array(),
-      bounds: { lo: nowhere, hi: nowhere } };
+      border, bounds: { lo: nowhere, hi: nowhere } };
   }
   const primitive = chunks.json.meshes?.[countOf(given.mesh, `${where}.mesh`)]?.primitives?.[0];
   const draco = primitive?.extensions?.KHR_draco_mesh_compression;
@@ -133,19 +138,20 @@ function surfaceOf(chunks: Chunks, given: Json, where: string, name: string): Su
     triangles: countOf(given.triangles, `${where}.triangles`),
     vertices: countOf(given.vertices, `${where}.vertices`),
     checksum: String(given.checksum),
+    border,
     bytes: chunks.binary.subarray(offset, offset + size),
     bounds: boundsOf(chunks.json.accessors?.[primitive.attributes?.POSITION]),
   };
 }
 
-function levelOf(chunks: Chunks, level: Json, k: number): Level {
+function levelOf(chunks: Chunks, border: Border | null, level: Json, k: number): Level {
   const where = `levels[${k}]`;
   const representative = numberOf(level?.representative, `${where}.representative`);
   const emission = numberOf(level.emission, `${where}.emission`);
   const at = `at emission ${emission.toPrecision(3)}`;
-  const shell = surfaceOf(chunks, level, where, `Shell ${at}`);
+  const shell = surfaceOf(chunks, border, level, where, `Shell ${at}`);
   const coarse = level.coarse
-    ? surfaceOf(chunks, level.coarse, `${where}.coarse`, `Coarse copy of the shell ${at}`) : null;
+    ? surfaceOf(chunks, border, level.coarse, `${where}.coarse`, `Coarse copy of the shell ${at}`) : null;
   return {
     ...shell, emission, coarse,
     reach: coarse ? around(shell.bounds, coarse.bounds) : shell.bounds,
@@ -160,8 +166,7 @@ const times = (m: number[], p: Vec3, w: number): Vec3 => [0, 4, 8].map(
 
 /** core/volume_geometry.h: half the longest diagonal of the box from first to last sample. */
 function sphereOf(dims: Vec3, worldFromVoxel: number[]): Sphere {
-  const lo = dims.map((n) => (n === 1 ? -0.5 : 0));
-  const hi = dims.map((n) => (n === 1 ? 0.5 : n - 1));
+  const { lo, hi } = boxOf(dims);
   const middle = lo.map((x, i) => (x + hi[i]) / 2) as unknown as Vec3;
   const extent = hi.map((x, i) => x - lo[i]);
   const signs: Vec3[] = [[1, 1, 1], [-1, 1, 1], [1, -1, 1], [1, 1, -1]];
@@ -188,14 +193,15 @@ export function readShellSet(file: Uint8Array): ShellSet {
   const m = matrix.map((x: unknown) => numberOf(x, "world_from_voxel"));
   const dims = vectorOf(extras.volume.dims, "volume.dims");
   if (!Array.isArray(extras.levels)) problem("no levels", "a list of them");
-  const levels = extras.levels.map((level: Json, k: number) => levelOf(chunks, level, k));
+  const center = vectorOf(extras.center_mm, "center_mm");
+  const sphere = sphereOf(dims, m);
+  const border = borderOf(dims, m, center, sphere);
+  const levels = extras.levels.map((level: Json, k: number) => levelOf(chunks, border, level, k));
   if (levels.some((level: Level, k: number) => k > 0 && level.emission <= levels[k - 1].emission)) {
     problem("levels out of order", "ascending ones");
   }
   return {
-    levels, dims,
-    center: vectorOf(extras.center_mm, "center_mm"),
-    sphere: sphereOf(dims, m),
+    levels, dims, center, sphere,
     spacing: [0, 1, 2].map((c) => Math.hypot(m[c], m[4 + c], m[8 + c])) as unknown as Vec3,
     sampleType: String(extras.volume.type),
     emission: extras.emission,
