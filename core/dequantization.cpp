@@ -282,7 +282,7 @@ class RowEstimate {
 
   void write_block(const Neighbourhood<Rank>& around, const std::uint8_t* fixed, int x, int count,
                    float* out) const {
-    std::array<std::array<SumOf<Rank>, kBlock>, kClasses> differences;
+    std::array<std::array<SumOf<Rank>, kBlock>, kClasses> differences{};
     around.differences(x, count, differences);
     std::array<float, kBlock> change{};
     for (std::size_t c = 0; c < kClasses; ++c) {

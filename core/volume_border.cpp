@@ -12,6 +12,12 @@ constexpr double kOnBorder = 1e-6;
 
 }  // namespace
 
+bool has_border(const VolumeFacts& volume) noexcept {
+  if (!is_stated(volume)) return false;
+  const double handed = handedness(volume.world_from_voxel);
+  return std::isfinite(handed) && handed != 0.0;
+}
+
 VolumeBorder::VolumeBorder(const VolumeFacts& volume, const glm::dvec3& center_mm)
     : box_(voxel_box(volume.dims)),
       offset_mm_(center_mm - bounding_sphere(volume.dims, volume.world_from_voxel).center_mm),
@@ -31,9 +37,7 @@ glm::vec3 VolumeBorder::operator()(const glm::vec3& p_mm) const {
 }
 
 std::optional<TriangleMesh> within_border(const ShellSet& set, const TriangleMesh& surface) {
-  if (!is_stated(set.volume)) return std::nullopt;
-  const double handed = handedness(set.volume.world_from_voxel);
-  if (!std::isfinite(handed) || handed == 0.0) return std::nullopt;
+  if (!has_border(set.volume)) return std::nullopt;
   const VolumeBorder border(set.volume, set.center_mm);
   std::optional<TriangleMesh> within;
   for (std::size_t v = 0; v < surface.positions.size(); ++v) {

@@ -10,6 +10,9 @@
 
 namespace nacre {
 
+/// Whether a volume is stated whose box has an inside: its matrix is regular.
+bool has_border(const VolumeFacts& volume) noexcept;
+
 /// Puts positions beyond a volume's box onto its border.
 ///
 /// Shells are capped in the border planes. Their vertices are on a grid, which an oblique volume's
@@ -19,7 +22,7 @@ namespace nacre {
 class VolumeBorder {
  public:
   /// @param center_mm  LPS, what positions are relative to
-  /// @pre  the volume is stated, and its matrix regular
+  /// @pre  `has_border`
   VolumeBorder(const VolumeFacts& volume, const glm::dvec3& center_mm);
 
   /// The nearest point of the box, in voxel coordinates; a position within it, or off it by

@@ -22,7 +22,7 @@ struct PixelSpan {
 ///
 /// The box is convex, and so is its picture: the hull of its projected corners; in perspective of
 /// what of the box lies before the eye, so that an eye beside or within the box is no other case.
-/// A pixel belongs to it if its centre does, to within rounding (some 1e-9 pixels, outwards).
+/// A pixel belongs to it if its centre does, to within rounding.
 ///
 /// @param dims, world_from_voxel  of the volume, see `voxel_box`
 /// @return as many spans as the picture has rows

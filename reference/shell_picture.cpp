@@ -88,7 +88,7 @@ class ShellPainter {
     cut_at_border(set);
     bounds_ = bounds_of(shells_, center_mm_);
     if (!(bounds_.lo_mm.x <= bounds_.hi_mm.x)) shells_.clear();
-    if (options.mode != PictureMode::Iso && is_stated(set.volume)) {
+    if (options.mode != PictureMode::Iso && has_border(set.volume)) {
       columns_ = volume_silhouette(camera, set.volume.dims, set.volume.world_from_voxel);
     }
   }

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/error.h"
+#include "core/volume_border.h"
 #include "render/planning.h"
 #include "render/tiles.h"
 
@@ -74,7 +75,7 @@ Plan make_plan(const SceneFacts& scene, const Camera& camera, const RenderOption
   plan.tiles = tiles(with_samples(camera, plan.samples).size, capabilities.max_target_side);
   planning::note_limits(planning);
   plan.rays = drawn_span(planning);
-  if (options.mode != PictureMode::Iso && is_stated(scene.volume)) {
+  if (options.mode != PictureMode::Iso && has_border(scene.volume)) {
     plan.columns = volume_silhouette(with_samples(camera, plan.samples), scene.volume.dims,
                                      scene.volume.world_from_voxel);
   }

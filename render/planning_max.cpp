@@ -213,8 +213,12 @@ std::vector<LayerRange> layers_of_ranks(const Planning& planning) {
 
 /// Rays a pixel along each axis that fine layers take.
 constexpr int kFineSamples = 3;
-/// The most rays that are taken for them.
-constexpr std::int64_t kMostSamples = std::int64_t{1} << 26;
+/// The most rays that are taken for them: in larger pictures one a pixel tells as much. Those that
+/// end at tools, or start or end within shells, take several times the memory.
+constexpr std::int64_t kMostSamples = std::int64_t{1} << 24;
+constexpr std::int64_t kMostSamplesWithEnds = std::int64_t{1} << 23;
+/// Ranks are numbers of 16 bits at most.
+constexpr std::size_t kMostLayers = std::size_t{1} << 16;
 
 /// Says between which levels the picture is estimated, and from how many rays, or why it is not.
 void plan_layers(Planning& planning) {
@@ -229,9 +233,14 @@ void plan_layers(Planning& planning) {
   }
   planning.plan.layers = layers_of_ranks(planning);
   if (planning.plan.layers.empty()) return leave_out("a representative lies outside its layer");
+  if (planning.plan.layers.size() > kMostLayers) {
+    planning.plan.layers.clear();
+    return leave_out("there are too many layers to tell apart");
+  }
   if (options.layers != Layers::Fine) return;
   const glm::ivec2 size = with_samples(planning.camera, kFineSamples).size;
-  if (std::int64_t{size.x} * size.y > kMostSamples) {
+  const bool has_ends = planning.plan.passes.size() > 1;
+  if (std::int64_t{size.x} * size.y > (has_ends ? kMostSamplesWithEnds : kMostSamples)) {
     return planning.leave_out("fine layers", "the picture is large enough without");
   }
   planning.plan.samples = kFineSamples;

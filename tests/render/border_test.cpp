@@ -122,6 +122,8 @@ TEST(BorderPlan, SaysWhichColumnsShow) {
   const Camera camera = camera_of(volume, {.size = {40, 30}});
   EXPECT_EQ(make_plan(facts, camera, {}).columns.size(), 30U);
   EXPECT_TRUE(make_plan(facts, camera, {.mode = PictureMode::Iso}).columns.empty());
+  facts.volume.world_from_voxel[2] = glm::dvec4(0.0);  // no inside: nothing to cut at
+  EXPECT_TRUE(make_plan(facts, camera, {}).columns.empty());
   facts.volume = {};
   EXPECT_TRUE(make_plan(facts, camera, {}).columns.empty());
 }

@@ -91,6 +91,11 @@ TEST(Plan, FineLayersTakeNineRaysAPixelWherePicturesAreNotLarge) {
   EXPECT_EQ(last.x + last.width, 3 * CameraOptions{}.size.x);
   EXPECT_EQ(last.y + last.height, 3 * CameraOptions{}.size.y);
   Camera large = make_camera({}, kSphere);
+  large.size = {1200, 1200};  // more with tools' ends to each ray than without
+  EXPECT_EQ(layers_drawn(make_plan(facts, large, {.layers = Layers::Fine}, {})), Layers::Fine);
+  facts.tools = {{.triangles = 12, .bounds = facts.shells[1].bounds}};
+  EXPECT_EQ(layers_drawn(make_plan(facts, large, {.layers = Layers::Fine}, {})), Layers::Smooth);
+  facts.tools.clear();
   large.size = {8192, 2048};  // nine times 17 million rays
   const Plan coarse = make_plan(facts, large, {.layers = Layers::Fine}, {});
   EXPECT_EQ(layers_drawn(coarse), Layers::Smooth);
