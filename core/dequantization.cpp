@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <numeric>
 
 #include "core/layer_samples.h"
 
@@ -338,10 +337,10 @@ void dequantize_image(const Image& samples, int per_pixel, std::span<const Layer
   const int middle = per_pixel / 2;
   rows(maximum.height, [&](int y) {
     for (int x = 0; x < maximum.width; ++x) {
-      const float shown = samples.at(x * per_pixel + middle, y * per_pixel + middle);
       const auto sample = static_cast<std::size_t>(y * per_pixel + middle) *
                               static_cast<std::size_t>(samples.width) +
                           static_cast<std::size_t>(x * per_pixel + middle);
+      const float shown = samples.pixels[sample];
       if (shown != layers[ranks[sample]].shown) maximum.at(x, y) = shown;
     }
   });

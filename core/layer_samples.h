@@ -94,7 +94,7 @@ class Neighbourhood {
   using Sum = SumOf<Rank>;
 
   /// @param stride  samples, at most kMaxStride pixels
-  /// @param below   whether the rows below are wanted by themselves, for `squared`
+  /// @param below   whether the rows below are wanted by themselves, for `neighbour`
   Neighbourhood(const LayerSamples<Rank>& samples, int stride, int y, bool below = false)
       : per_pixel_(samples.per_pixel),
         stride_(stride),

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
-#include <glm/vector_relational.hpp>
 #include <limits>
 
 #include "core/error.h"
 #include "core/quantization_grid.h"
+#include "shells/grid_points.h"
 
 namespace nacre {
 namespace {
@@ -18,11 +18,6 @@ constexpr double kNearPlane = 0.01;  // voxels
 constexpr double kOnPlane = 1e-6;
 // Steps: what is nearer than the grid points that are farther along an axis.
 constexpr double kNearestBeyond = 1.5;
-
-bool is_in_grid(const QuantizationGrid& grid, const glm::ivec3& index) {
-  return glm::all(glm::greaterThanEqual(index, glm::ivec3(0))) &&
-         glm::all(glm::lessThan(index, glm::ivec3(1 << grid.bits)));
-}
 
 }  // namespace
 
@@ -82,7 +77,7 @@ glm::ivec3 BorderRounding::index(const glm::dvec3& p_mm) const {
       for (int y = -reach; y <= reach; ++y) {
         for (int x = -reach; x <= reach; ++x) {
           const glm::ivec3 index = nearest + glm::ivec3(x, y, z);
-          if (!is_in_grid(grid_, index)) continue;
+          if (!is_in_grid(index, grid_.bits)) continue;
           const glm::dvec3 point(grid_position(grid_, index));
           const double inward = inward_voxels(point, planes);
           const double steps = glm::distance(point, target) / step;

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cstdint>
 #include <glm/geometric.hpp>
-#include <glm/vector_relational.hpp>
 #include <limits>
 #include <vector>
 
 #include "core/quantization_grid.h"
+#include "shells/grid_points.h"
 #include "shells/star.h"
 
 namespace nacre {
@@ -21,11 +21,6 @@ constexpr double kCoarseStep = 0.1;
 /// The i-th of the grid points around one.
 glm::ivec3 neighbour(const glm::ivec3& index, int i) {
   return index + glm::ivec3(i % 3, i / 3 % 3, i / 9) - 1;
-}
-
-bool is_in_grid(const QuantizationGrid& grid, const glm::ivec3& index) {
-  return glm::all(glm::greaterThanEqual(index, glm::ivec3(0))) &&
-         glm::all(glm::lessThan(index, glm::ivec3(1 << grid.bits)));
 }
 
 /// The most samples that a step along one of the grid's axes crosses.
@@ -46,7 +41,7 @@ glm::dvec3 best_point(const QuantizationGrid& grid, const Star& star, const Star
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kNearby; ++i) {
     const glm::ivec3 index = neighbour(nearest, i);
-    if (!is_in_grid(grid, index)) continue;
+    if (!is_in_grid(index, grid.bits)) continue;
     const glm::dvec3 p(grid_position(grid, index));
     const double change = fit.change(p - here);
     if (change >= least || !keeps_shape(star, p)) continue;

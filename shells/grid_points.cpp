@@ -33,6 +33,11 @@ std::int64_t squared_distance(const GridIndex& a, const GridIndex& b) noexcept {
   return d.x * d.x + d.y * d.y + d.z * d.z;
 }
 
+bool is_in_grid(const GridIndex& point, int bits) noexcept {
+  const std::int32_t side = std::int32_t{1} << bits;
+  return std::min({point.x, point.y, point.z}) >= 0 && std::max({point.x, point.y, point.z}) < side;
+}
+
 std::vector<GridIndex> OccupiedPoints::around(const GridIndex& point, int reach,
                                               const glm::dvec3& target) const {
   std::vector<GridIndex> points;
@@ -40,8 +45,7 @@ std::vector<GridIndex> OccupiedPoints::around(const GridIndex& point, int reach,
     for (int y = -reach; y <= reach; ++y) {
       for (int x = -reach; x <= reach; ++x) {
         const GridIndex p = point + GridIndex(x, y, z);
-        const bool inside = std::min({p.x, p.y, p.z}) >= 0 && std::max({p.x, p.y, p.z}) < side_;
-        if (inside) points.push_back(p);
+        if (is_in_grid(p, bits_)) points.push_back(p);
       }
     }
   }

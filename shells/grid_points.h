@@ -15,6 +15,9 @@ glm::i64vec3 twice_area(const GridIndex& a, const GridIndex& b, const GridIndex&
 /// Squared distance of two grid points, exact.
 std::int64_t squared_distance(const GridIndex& a, const GridIndex& b) noexcept;
 
+/// Whether a grid of that many bits has the point.
+bool is_in_grid(const GridIndex& point, int bits) noexcept;
+
 /// Which grid points vertices lie on, and the free ones near a position.
 ///
 /// A hash table with linear probing: its entries are the points themselves, a quarter of what nodes
@@ -22,7 +25,7 @@ std::int64_t squared_distance(const GridIndex& a, const GridIndex& b) noexcept;
 class OccupiedPoints {
  public:
   /// @param bits  of the grid
-  explicit OccupiedPoints(int bits) : side_(std::int32_t{1} << bits) {}
+  explicit OccupiedPoints(int bits) : bits_(bits) {}
 
   /// Makes room for `count` points.
   void reserve(std::size_t count);
@@ -39,7 +42,7 @@ class OccupiedPoints {
  private:
   std::size_t slot_of(const GridIndex& point) const;
 
-  std::int32_t side_;
+  int bits_;
   std::vector<GridIndex> slots_;  ///< a power of two of them
   std::size_t used_ = 0;          ///< released ones too
 };
