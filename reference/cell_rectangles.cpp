@@ -1,5 +1,8 @@
 #include "reference/cell_rectangles.h"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -68,6 +71,18 @@ PixelRange CellRectangles::of(const glm::ivec3& first_cell, int side,
   return around(center_px_.x + 0.5 * (x.least + x.greatest),
                 center_px_.y - 0.5 * (y.least + y.greatest), 0.5 * (x.greatest - x.least),
                 0.5 * (y.greatest - y.least), frame);
+}
+
+std::vector<PixelRange> rectangles_of(const BrightBricks& bright, const CellRectangles& rectangles,
+                                      const glm::ivec2& size) {
+  std::vector<PixelRange> result(bright.bricks.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, result.size()), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i != range.end(); ++i) {
+      result[i] =
+          rectangles.of(bright.bricks[i].first_cell, BrightBricks::kSide, {{0, 0}, size - 1});
+    }
+  });
+  return result;
 }
 
 }  // namespace nacre

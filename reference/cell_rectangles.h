@@ -4,6 +4,7 @@
 #include <array>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <vector>
 
 #include "core/camera.h"
 #include "reference/bright_bricks.h"
@@ -97,5 +98,9 @@ class CellRectangles {
   std::array<double, kBrickCells> cell_x_{};  ///< of a cell's centre, from the brick
   std::array<double, kBrickCells> cell_y_{};
 };
+
+/// Where each bright brick lies in the picture. On all cores.
+std::vector<PixelRange> rectangles_of(const BrightBricks& bright, const CellRectangles& rectangles,
+                                      const glm::ivec2& size);
 
 }  // namespace nacre

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "reference/brick_samples.h"
+#include "reference/cell_cue.h"
 #include "reference/cell_rectangles.h"
 #include "reference/tile_lists.h"
 #include "reference/tile_rays.h"
@@ -22,29 +23,6 @@ namespace nacre {
 namespace {
 
 constexpr int kBrick = BrightBricks::kSide;
-
-/// The cue in cell coordinates.
-class CellCue {
- public:
-  CellCue(const WalkField& field, const CueField& cue)
-      : rise_(glm::transpose(field.frame.world_from_cell) * cue.rise_per_mm),
-        at_origin_(cue.at_center +
-                   glm::dot(cue.rise_per_mm, field.frame.center_mm - cue.center_mm) -
-                   glm::dot(rise_, field.frame.center_cell)) {}
-
-  /// Never below the greatest cue within a cube of cells.
-  double greatest(const glm::ivec3& first_cell, int side) const {
-    constexpr double kSafely = 1e-12;
-    const double half = 0.5 * side;
-    const double at_center = at_origin_ + glm::dot(rise_, glm::dvec3(first_cell) + half);
-    const double around = half * (std::abs(rise_.x) + std::abs(rise_.y) + std::abs(rise_.z));
-    return std::max(0.0, at_center + around + kSafely * (std::abs(at_origin_) + around));
-  }
-
- private:
-  glm::dvec3 rise_;
-  double at_origin_;
-};
 
 /// What differs between an uncued and a cued picture: the unit of `best`, and what cells do to it.
 ///
@@ -191,14 +169,6 @@ struct Workplace {
   std::vector<Item> items;
 };
 
-PixelRange tile_rectangle(const TileLists& lists, std::size_t tile, const glm::ivec2& size) {
-  const auto across = static_cast<std::size_t>(lists.tiles.x);
-  const int x = static_cast<int>(tile % across) * TileRays::kSide;
-  const int y = static_cast<int>(tile / across) * TileRays::kSide;
-  const glm::ivec2 first(x, y);
-  return {first, glm::min(first + TileRays::kSide, size) - 1};
-}
-
 LaneRectangle lanes_of(const PixelRange& pixels) {
   return {pixels.first.x, pixels.first.y, pixels.last.x + 1, pixels.last.y + 1};
 }
@@ -269,7 +239,7 @@ void draw_brick(const Frame& frame, const BrightBrick& brick, const PixelRange& 
 
 template <class Maximum>
 void draw_tile(const Frame& frame, std::size_t tile, Workplace<Maximum>& work, Picture& picture) {
-  const PixelRange pixels = tile_rectangle(frame.lists, tile, frame.camera.size);
+  const PixelRange pixels = frame.lists.pixels(tile, TileRays::kSide, frame.camera.size);
   list_items(frame, tile, work);
   if (work.items.empty() && !frame.lines.shows_always() && !picture.tools) return;
   start_rays(frame, pixels, work, picture);
@@ -317,17 +287,6 @@ void draw_tiles(const Frame& frame, Picture& picture, const ProgressCallback& pr
         }
       },
       tbb::simple_partitioner());
-}
-
-std::vector<PixelRange> rectangles_of(const BrightBricks& bright, const CellRectangles& rectangles,
-                                      const glm::ivec2& size) {
-  std::vector<PixelRange> result(bright.bricks.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, result.size()), [&](const auto& range) {
-    for (std::size_t i = range.begin(); i != range.end(); ++i) {
-      result[i] = rectangles.of(bright.bricks[i].first_cell, kBrick, {{0, 0}, size - 1});
-    }
-  });
-  return result;
 }
 
 }  // namespace

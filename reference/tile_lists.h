@@ -19,6 +19,14 @@ struct TileLists {
   std::span<const std::uint32_t> of(std::size_t tile) const {
     return std::span(items).subspan(begin[tile], begin[tile + 1] - begin[tile]);
   }
+
+  /// The pixels of a tile.
+  /// @param side  as the lists were made with
+  PixelRange pixels(std::size_t tile, int side, const glm::ivec2& size) const {
+    const auto across = static_cast<std::size_t>(tiles.x);
+    const glm::ivec2 first = side * glm::ivec2(tile % across, tile / across);
+    return {first, glm::min(first + side, size) - 1};
+  }
 };
 
 /// Puts each thing into the lists of the tiles that its rectangle meets. On all cores; the same for
