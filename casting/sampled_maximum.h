@@ -1,0 +1,55 @@
+#pragma once
+
+#include <memory>
+
+#include "core/camera.h"
+#include "core/instruction_set.h"
+#include "core/picture.h"
+#include "core/progress.h"
+#include "reference/exact_walk.h"
+#include "reference/tool_rays.h"
+
+namespace nacre {
+
+class CastBricks;
+
+/// What a sampled maximum shows, and how.
+struct SampledMaximumOptions {
+  int per_cell = 2;  ///< planes of samples a cell, 1 to `kMostSamplesPerCell` (sample_kernel.h)
+  DepthCue cue = {};
+  Slab slab = {};
+  const ToolRays* tools = nullptr;                       ///< none, or what outlives the call
+  InstructionSet instructions = best_instruction_set();  ///< the picture does not depend on it
+};
+
+/// The greatest cued emission among samples along the ray through each pixel's centre: a maximum
+/// projection by ray casting, as volume renderers have it. Never above what `exact_picture` finds
+/// but for rounding to floats, and closer to it with the square of the samples' distance.
+///
+/// A ray is sampled, trilinearly, where it crosses the planes of voxels across the axis that it is
+/// steepest to, and planes evenly between them. Maxima of a trilinear field lie on planes of voxels
+/// more often than elsewhere, so that few samples tell much (docs/decisions/029-sampled-maxima.md).
+///
+/// Bricks of voxels are drawn the brightest first, as `max_picture_by_cells` does. Where the rays
+/// of 32 x 32 pixels have no axis that all are steep to (a wide view in few pixels), and for
+/// windows whose width no double holds, the exact picture is drawn. The same bytes for any number
+/// of threads and any instructions.
+class SampledMaximum {
+ public:
+  /// Reads what is bright once, on all cores.
+  /// @param walk  outlives this object
+  explicit SampledMaximum(const ExactWalk& walk);
+  ~SampledMaximum();
+  SampledMaximum(SampledMaximum&&) noexcept;
+
+  /// @throws Error  BadArgument for a bad cue, an empty slab, or samples out of range; Unsupported
+  ///                for a cue and an emission map of more than one piece
+  Picture picture(const Camera& camera, const SampledMaximumOptions& options = {},
+                  const ProgressCallback& progress = {}) const;
+
+ private:
+  const ExactWalk* walk_;
+  std::unique_ptr<const CastBricks> bricks_;  ///< null: the map's width is none
+};
+
+}  // namespace nacre
