@@ -1,4 +1,5 @@
-// `nacre reference`, and `nacre render --method exact`: the exact picture of a volume.
+// `nacre reference`, and `nacre render --method exact` and `sampled`: a picture of a volume by
+// rays.
 #include "app/exact_command.h"
 
 #include <fmt/core.h>
@@ -28,21 +29,34 @@ struct Timing {
   double write = 0.0;
 };
 
+/// "exact", or "2 a voxel".
+std::string how(const ExactScene& scene) {
+  return scene.samples() > 0 ? fmt::format("{} a voxel", scene.samples()) : std::string("exact");
+}
+
+const char* pass_of(const ExactFlags& flags, const ExactScene& scene) {
+  if (scene.samples() > 0) return "sample every bright brick";
+  const bool by_cells = flags.picture.mode == "max" && !scene.shows_shells();
+  return by_cells ? "draw every bright cell" : "walk every ray";
+}
+
 ordered_json figures(const ExactFlags& flags, const EmissionVolume& input, const ExactScene& scene,
                      const TurntableResult& result, const Timing& timing) {
   const Image& image = result.last.volume;
   const auto [least, greatest] = std::minmax_element(image.pixels.begin(), image.pixels.end());
   ordered_json json;
-  json["backend"] = "exact";
-  json["renderer"] = "exact walk of the trilinear field, double precision";
+  json["backend"] = scene.samples() > 0 ? "sampled" : "exact";
+  json["renderer"] =
+      scene.samples() > 0
+          ? fmt::format("samples of the trilinear field, {}, single precision", how(scene))
+          : std::string("exact walk of the trilinear field, double precision");
   json["mode"] = flags.picture.mode;
   json["window"] = {input.emission.lo(), input.emission.hi()};
   json["picture"] = {
       {"width", image.width}, {"height", image.height}, {"least", *least}, {"greatest", *greatest}};
   if (result.window) json["display"] = {result.window->lo, result.window->hi};
   if (scene.shows_shells()) json["levels"] = scene.level_figures();
-  const bool by_cells = flags.picture.mode == "max" && !scene.shows_shells();
-  json["passes"] = {by_cells ? "draw every bright cell" : "walk every ray"};
+  json["passes"] = {pass_of(flags, scene)};
   json["left_out"] = ordered_json::array();
   json["triangles_drawn"] = 0;
   json["seconds"] = {{"load", timing.load},
@@ -77,6 +91,7 @@ void run_exact(const ExactFlags& flags) {
   const BoundingSphere sphere = bounding_sphere(input.volume.dims, input.volume.world_from_voxel);
   make_camera(camera, sphere);  // refuses what cannot be, before the work
   const ExactWalk walk(input.volume, input.emission);
+  scene.prepare(walk);
   timing.upload = watch.lap();
 
   const int views = std::max(flags.camera.turntable, 1);
@@ -93,10 +108,10 @@ void run_exact(const ExactFlags& flags) {
       write_views(flags.picture, {.views = views, .tools = !flags.scene.tools.empty()}, draw);
   timing.write = result.write_seconds;
   const Image& image = result.last.volume;
-  reporter.say(fmt::format("{} {} of {} x {} pixels, {:.1f} ms a frame (exact){}{}", views,
+  reporter.say(fmt::format("{} {} of {} x {} pixels, {:.1f} ms a frame ({}){}{}", views,
                            views == 1 ? "picture" : "pictures", image.width, image.height,
-                           1e3 * median(timing.frames), flags.picture.output.empty() ? "" : " -> ",
-                           flags.picture.output));
+                           1e3 * median(timing.frames), how(scene),
+                           flags.picture.output.empty() ? "" : " -> ", flags.picture.output));
   reporter.finish(figures(flags, input, scene, result, timing));
 }
 

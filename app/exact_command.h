@@ -18,6 +18,7 @@ struct ExactFlags {
   SceneFlags scene;
   LevelFlags levels;   ///< of count, iso and ideal shells
   bool ideal = false;  ///< ideal shells in place of the volume itself
+  int samples = 0;     ///< a voxel, of a sampled maximum; 0: exact
 };
 
 /// Adds all but the flags of levels, which some verbs share with those of shells, and --ideal.

@@ -1,5 +1,7 @@
 #include "app/exact_scene.h"
 
+#include <fmt/core.h>
+
 #include "core/error.h"
 
 namespace nacre {
@@ -7,11 +9,16 @@ namespace nacre {
 ExactScene::ExactScene(const ExactFlags& flags)
     : level_flags_(flags.levels),
       ideal_(flags.ideal),
+      samples_(flags.samples),
       tools_(std::make_unique<const ToolRays>(read_tools(flags.scene))) {
   options_.mode = picture_mode(flags.picture);
   options_.cue = depth_cue(flags.scene);
   options_.slab = slab(flags.camera);
   options_.tools = tools_.get();
+  if (samples_ > 0 && options_.mode != PictureMode::Max) {
+    throw Error(ErrorCode::BadArgument,
+                fmt::format("--method sampled: found --mode {}, expected max", flags.picture.mode));
+  }
 }
 
 bool ExactScene::shows_shells() const {
@@ -31,8 +38,18 @@ void ExactScene::set_emission(const EmissionMap& emission) {
   }
 }
 
+void ExactScene::prepare(const ExactWalk& walk) {
+  if (samples_ > 0) sampled_ = std::make_unique<const SampledMaximum>(walk);
+}
+
 Picture ExactScene::draw(const ExactWalk& walk, const Camera& camera,
                          const ProgressCallback& progress) const {
+  if (sampled_) {
+    return sampled_->picture(
+        camera,
+        {.per_cell = samples_, .cue = options_.cue, .slab = options_.slab, .tools = options_.tools},
+        progress);
+  }
   return ideal_ ? ideal_picture(walk, camera, options_, progress)
                 : exact_picture(walk, camera, options_, progress);
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/exact_command.h"
+#include "casting/sampled_maximum.h"
 #include "core/emission.h"
 #include "extract/levels.h"
 #include "reference/exact_picture.h"
@@ -25,7 +26,14 @@ class ExactScene {
   /// @throws Error  BadArgument for flags that name no levels
   void set_emission(const EmissionMap& emission);
 
-  /// What `exact_picture` or `ideal_picture` is asked for.
+  /// Makes ready what is drawn of a walk beside it.
+  /// @param walk  outlives this object
+  void prepare(const ExactWalk& walk);
+
+  /// Samples a voxel that a maximum is drawn by; 0: it is exact.
+  int samples() const { return samples_; }
+
+  /// What `exact_picture`, `ideal_picture` or a sampled maximum is asked for.
   Picture draw(const ExactWalk& walk, const Camera& camera, const ProgressCallback& progress) const;
 
   /// The levels shown, for machines: emission, value, representative; none without shells.
@@ -34,6 +42,8 @@ class ExactScene {
  private:
   LevelFlags level_flags_;
   bool ideal_ = false;
+  int samples_ = 0;
+  std::unique_ptr<const SampledMaximum> sampled_;
   std::unique_ptr<const ToolRays> tools_;
   std::vector<Level> levels_;
   ExactPictureOptions options_;

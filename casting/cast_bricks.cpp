@@ -8,7 +8,6 @@
 namespace nacre {
 namespace {
 
-constexpr std::size_t kMostBytes = std::size_t{256} << 20;
 static_assert(CastBrick::kSamples == BrickSamples::kSamples);
 
 void read(const WalkField& field, const CastScale& scale, const glm::ivec3& first_cell,
@@ -20,9 +19,10 @@ void read(const WalkField& field, const CastScale& scale, const glm::ivec3& firs
 
 }  // namespace
 
-CastBricks::CastBricks(const WalkField& field, const BrightBricks& bright, const CastScale& scale)
+CastBricks::CastBricks(const WalkField& field, const BrightBricks& bright, const CastScale& scale,
+                       std::size_t most_bytes)
     : field_(field), bright_(bright), scale_(scale) {
-  if (bright.bricks.size() > kMostBytes / sizeof(BrickValues)) return;
+  if (bright.bricks.size() > most_bytes / sizeof(BrickValues)) return;
   kept_.resize(bright.bricks.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, kept_.size()), [&](const auto& range) {
     for (std::size_t i = range.begin(); i != range.end(); ++i) {

@@ -28,7 +28,9 @@ using BrickValues = std::array<float, CastBrick::kAll>;
 class CastBricks {
  public:
   /// On all cores. All arguments outlive this object.
-  CastBricks(const WalkField& field, const BrightBricks& bright, const CastScale& scale);
+  /// @param most_bytes  bricks are kept if they take no more
+  CastBricks(const WalkField& field, const BrightBricks& bright, const CastScale& scale,
+             std::size_t most_bytes = std::size_t{256} << 20);
 
   /// The samples of a bright brick.
   /// @param room  where they are put if they are not kept

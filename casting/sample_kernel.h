@@ -35,12 +35,14 @@ struct BlockRays {
 struct CastBrick {
   static constexpr int kSamples = 5;  ///< along an edge
   static constexpr int kAll = kSamples * kSamples * kSamples;
+  static constexpr int kFaces = 4;  ///< lower u, upper u, lower v, upper v
 
   /// Emission before it is clamped, 0 at the map's first knot and 1 at its last; x fastest.
   const float* samples;
   int step[3];      ///< from a sample to the next along u, v and across planes
   float first[3];   ///< the lower corner: u, v, plane
-  float extent[2];  ///< cells along u and v
+  float extent[3];  ///< cells along u, v and across planes
+  unsigned faces;   ///< of the volume's border that are the brick's: a bit each, see `kFaces`
   int sampled;      ///< planes to take samples on, the first being that of the corner
   int per_cell;     ///< planes a cell
   float greatest;   ///< the most that a ray can see of it

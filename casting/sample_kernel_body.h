@@ -86,6 +86,7 @@ inline Floats look_up(const float* plane, const Ints& at) {
 struct Planes {
   alignas(64) float voxels[kSide][kRow];
   alignas(64) float between[kMostPlanes][kRow];
+  alignas(64) float face[CastBrick::kFaces][kRow];
   const float* sample[kMostPlanes];  ///< one or the other
   float greatest[kMostPlanes];       ///< what a ray can see of each
 };
@@ -106,6 +107,19 @@ inline void copy_voxels(const CastBrick& brick, Planes& planes) {
   }
 }
 
+/// Samples of a face of the border: along it, then across planes.
+inline void copy_face(const CastBrick& brick, int face, float* out) {
+  const int axis = face < 2 ? 0 : 1;
+  const int cells = face % 2 == 0 ? 0 : static_cast<int>(brick.extent[axis]);
+  const float* first = brick.samples + cells * brick.step[axis];
+  for (int p = 0; p < kSide; ++p) {
+    for (int along = 0; along < kSide; ++along) {
+      out[p * kSide + along] = first[p * brick.step[2] + along * brick.step[1 - axis]];
+    }
+  }
+  for (int i = kSide * kSide; i < kRow; ++i) out[i] = out[0];
+}
+
 inline float greatest_of_plane(const float* plane) {
   Floats most = load(plane);
   for (int i = kLanes; i < kRow; i += kLanes) most = greatest(most, load(plane + i));
@@ -114,6 +128,9 @@ inline float greatest_of_plane(const float* plane) {
 
 inline void fill(const CastBrick& brick, const CastCue* cue, Planes& planes) {
   copy_voxels(brick, planes);
+  for (int face = 0; face < CastBrick::kFaces; ++face) {
+    if ((brick.faces >> face & 1U) != 0) copy_face(brick, face, planes.face[face]);
+  }
   const float step = 1.0F / static_cast<float>(brick.per_cell);
   int cell = 0;
   int part = 0;
@@ -141,11 +158,12 @@ inline void fill(const CastBrick& brick, const CastCue* cue, Planes& planes) {
   }
 }
 
-/// What the rays of a vector meet on a plane, where in the brick, and which of them do.
+/// What the rays of a vector meet: where in the brick, and which of them do.
 struct Seen {
   Floats sample;
   Floats u;
   Floats v;
+  Floats plane;  ///< of the volume
   Ints mask;
 };
 
@@ -156,23 +174,48 @@ struct Lines {
 /// So little beyond a brick's faces counts as inside, so that rounding loses no sample.
 constexpr float kHair = 1e-5F;
 
-inline Seen sample(const Lines& lines, const CastBrick& brick, const Planes& planes, int j,
-                   const Floats& p) {
-  const Floats u = (lines.u + p * lines.du) - brick.first[0];
-  const Floats v = (lines.v + p * lines.dv) - brick.first[1];
-  const Ints mask = (u >= -kHair) & (u <= brick.extent[0] + kHair) & (v >= -kHair) &
-                    (v <= brick.extent[1] + kHair);
+inline Ints within(const Floats& place, float extent) {
+  return (place >= -kHair) & (place <= extent + kHair);
+}
+
+/// Between four of a plane's samples.
+inline Floats bilinear(const float* plane, const Floats& u, const Floats& v) {
   const Floats most = Floats{} + 3.0F;
   const Floats none = Floats{};
   const Ints iu = __builtin_convertvector(least(greatest(u, none), most), Ints);
   const Ints iv = __builtin_convertvector(least(greatest(v, none), most), Ints);
   const Floats su = u - __builtin_convertvector(iu, Floats);
   const Floats sv = v - __builtin_convertvector(iv, Floats);
-  const float* plane = planes.sample[j];
   const Ints at = iu + iv * kSide;
   const Floats near = mix(look_up(plane, at), look_up(plane, at + 1), su);
   const Floats far = mix(look_up(plane, at + kSide), look_up(plane, at + (kSide + 1)), su);
-  return {mix(near, far, sv), u, v, mask};
+  return mix(near, far, sv);
+}
+
+inline void cross_plane(const Lines& lines, const CastBrick& brick, const Planes& planes, int j,
+                        float p, Seen& seen) {
+  seen.plane = Floats{} + p;
+  seen.u = (lines.u + seen.plane * lines.du) - brick.first[0];
+  seen.v = (lines.v + seen.plane * lines.dv) - brick.first[1];
+  seen.mask = within(seen.u, brick.extent[0]) & within(seen.v, brick.extent[1]);
+  seen.sample = bilinear(planes.sample[j], seen.u, seen.v);
+}
+
+/// Where rays go through a face of the volume's border, which may lie between planes.
+inline void cross_face(const Lines& lines, const CastBrick& brick, const Planes& planes, int face,
+                       Seen& seen) {
+  const bool of_u = face < 2;
+  const int axis = of_u ? 0 : 1;
+  const float place = face % 2 == 0 ? 0.0F : brick.extent[axis];
+  const Floats way = (brick.first[axis] + place) - (of_u ? lines.u : lines.v);
+  seen.plane = way / (of_u ? lines.du : lines.dv);  // no number: not within
+  const Floats p = seen.plane - brick.first[2];
+  const Floats there = Floats{} + place;
+  seen.u = of_u ? there : (lines.u + seen.plane * lines.du) - brick.first[0];
+  seen.v = of_u ? (lines.v + seen.plane * lines.dv) - brick.first[1] : there;
+  const Floats& along = of_u ? seen.v : seen.u;
+  seen.mask = within(along, brick.extent[of_u ? 1 : 0]) & within(p, brick.extent[2]);
+  seen.sample = bilinear(planes.face[face], along, p);
 }
 
 template <class OnSeen>
@@ -191,17 +234,27 @@ inline void for_samples(const BlockRays& rays, const CastBrick& brick,
         if (!filled) fill(brick, cue, planes);
         filled = true;
         const Lines lines{load(rays.u + i), load(rays.v + i), load(rays.du + i), load(rays.dv + i)};
-        for (int j = 0; j < brick.sampled; ++j) {
-          if (!any(best < planes.greatest[j])) continue;
-          const Floats p = Floats{} + (brick.first[2] + static_cast<float>(j) * step);
-          Seen seen = sample(lines, brick, planes, j, p);
+        Seen seen;
+        const auto raise_best = [&](float most) {
           if (rays.first_plane != nullptr) {
-            seen.mask &= (p >= load(rays.first_plane + i)) & (p <= load(rays.last_plane + i));
+            seen.mask &= (seen.plane >= load(rays.first_plane + i)) &
+                         (seen.plane <= load(rays.last_plane + i));
           }
           Floats shown = seen.sample;
-          on_seen(p, seen, shown);
-          shown = least(shown, Floats{} + planes.greatest[j]);
+          on_seen(seen, shown);
+          shown = least(shown, Floats{} + most);
           best = (seen.mask & (shown > best)) ? shown : best;
+        };
+        for (int j = 0; j < brick.sampled; ++j) {
+          if (!any(best < planes.greatest[j])) continue;
+          const float p = brick.first[2] + static_cast<float>(j) * step;
+          cross_plane(lines, brick, planes, j, p, seen);
+          raise_best(planes.greatest[j]);
+        }
+        for (int face = 0; face < CastBrick::kFaces; ++face) {
+          if ((brick.faces >> face & 1U) == 0) continue;
+          cross_face(lines, brick, planes, face, seen);
+          raise_best(brick.greatest);
         }
         store(rays.best + i, best);
       }
@@ -212,15 +265,15 @@ inline void for_samples(const BlockRays& rays, const CastBrick& brick,
 void raise(const BlockRays& rays, const CastBrick& brick, const BlockRectangle& rectangle,
            const CastCue* cue) {
   if (cue == nullptr) {
-    for_samples(rays, brick, rectangle, cue, [](const Floats&, const Seen&, Floats&) {});
+    for_samples(rays, brick, rectangle, cue, [](const Seen&, Floats&) {});
     return;
   }
-  for_samples(rays, brick, rectangle, cue, [&](const Floats& p, const Seen& seen, Floats& shown) {
+  for_samples(rays, brick, rectangle, cue, [&](const Seen& seen, Floats& shown) {
     const Floats none{};
     const Floats part = least(greatest(seen.sample, none), none + 1.0F);
     const Floats emission = cue->bottom + part * (cue->top - cue->bottom);
     const Floats beta = cue->at_corner + (cue->rise[0] * seen.u + cue->rise[1] * seen.v +
-                                          cue->rise[2] * (p - brick.first[2]));
+                                          cue->rise[2] * (seen.plane - brick.first[2]));
     shown = emission * greatest(beta, none);
   });
 }

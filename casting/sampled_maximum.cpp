@@ -171,13 +171,18 @@ CastBrick brick_of(const Scene& scene, std::uint32_t index, float upper, const C
   const glm::ivec3& corner = scene.bright.bricks[index].first_cell;
   const glm::ivec3 left = glm::ivec3(scene.field.cells) - corner;
   const glm::ivec3 extent = glm::min(left, BrightBricks::kSide);
-  const int last = left[axes.plane] <= BrightBricks::kSide ? 1 : 0;
+  const auto ends = [&](int axis) { return left[axis] <= BrightBricks::kSide ? 1U : 0U; };
+  const auto begins = [&](int axis) { return corner[axis] == 0 ? 1U : 0U; };
+  const unsigned faces =
+      begins(axes.u) | ends(axes.u) << 1 | begins(axes.v) << 2 | ends(axes.v) << 3;
   return {scene.bricks.samples(index, room),
           {kStep[axes.u], kStep[axes.v], kStep[axes.plane]},
           {static_cast<float>(corner[axes.u]), static_cast<float>(corner[axes.v]),
            static_cast<float>(corner[axes.plane])},
-          {static_cast<float>(extent[axes.u]), static_cast<float>(extent[axes.v])},
-          extent[axes.plane] * scene.per_cell + last,
+          {static_cast<float>(extent[axes.u]), static_cast<float>(extent[axes.v]),
+           static_cast<float>(extent[axes.plane])},
+          faces,
+          extent[axes.plane] * scene.per_cell + static_cast<int>(ends(axes.plane)),
           scene.per_cell,
           upper};
 }
