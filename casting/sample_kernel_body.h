@@ -218,6 +218,45 @@ inline void cross_face(const Lines& lines, const CastBrick& brick, const Planes&
   seen.sample = bilinear(planes.face[face], along, p);
 }
 
+/// Between eight of a brick's samples.
+inline float trilinear(const CastBrick& brick, const float place[3]) {
+  const float* first = brick.samples;
+  float s[3];
+  for (int axis = 0; axis < 3; ++axis) {
+    const float most = static_cast<float>(kSide - 2);
+    const float inside = place[axis] > 0.0F ? place[axis] : 0.0F;
+    const int cell = static_cast<int>(inside < most ? inside : most);
+    first += cell * brick.step[axis];
+    s[axis] = place[axis] - static_cast<float>(cell);
+  }
+  const auto along = [&](const float* from) {
+    return from[0] + (from[brick.step[0]] - from[0]) * s[0];
+  };
+  const auto across = [&](const float* from) {
+    const float near = along(from);
+    return near + (along(from + brick.step[1]) - near) * s[1];
+  };
+  const float near = across(first);
+  return near + (across(first + brick.step[2]) - near) * s[2];
+}
+
+/// Where rays are cut off, between planes.
+inline void meet_end(const Lines& lines, const CastBrick& brick, const Floats& plane, Seen& seen) {
+  seen.plane = plane;
+  seen.u = (lines.u + plane * lines.du) - brick.first[0];
+  seen.v = (lines.v + plane * lines.dv) - brick.first[1];
+  const Floats p = plane - brick.first[2];
+  seen.mask = within(seen.u, brick.extent[0]) & within(seen.v, brick.extent[1]) &
+              within(p, brick.extent[2]);
+  seen.sample = Floats{};
+  if (!any(seen.mask)) return;
+  for (int lane = 0; lane < kLanes; ++lane) {
+    if (seen.mask[lane] == 0) continue;
+    const float place[3] = {seen.u[lane], seen.v[lane], p[lane]};
+    seen.sample[lane] = trilinear(brick, place);
+  }
+}
+
 template <class OnSeen>
 inline void for_samples(const BlockRays& rays, const CastBrick& brick,
                         const BlockRectangle& rectangle, const CastCue* cue,
@@ -254,6 +293,12 @@ inline void for_samples(const BlockRays& rays, const CastBrick& brick,
         for (int face = 0; face < CastBrick::kFaces; ++face) {
           if ((brick.faces >> face & 1U) == 0) continue;
           cross_face(lines, brick, planes, face, seen);
+          raise_best(brick.greatest);
+        }
+        if (rays.first_plane != nullptr) {
+          meet_end(lines, brick, load(rays.first_plane + i), seen);
+          raise_best(brick.greatest);
+          meet_end(lines, brick, load(rays.last_plane + i), seen);
           raise_best(brick.greatest);
         }
         store(rays.best + i, best);

@@ -28,10 +28,9 @@ struct SampledMaximumOptions {
 /// error at least (7 to 8 dB on scans).
 ///
 /// A ray is sampled, trilinearly, where it crosses the planes of voxels across the axis that it is
-/// steepest to, on planes evenly between them, and where it enters and leaves the volume's box. A
-/// trilinear field has its kinks, and with them many of its maxima, on planes of voxels, so that
-/// few samples tell much (docs/decisions/029-sampled-maxima.md). Ends at slabs and tools are not
-/// sampled.
+/// steepest to, on planes evenly between them, and where it enters and leaves the volume's box, a
+/// slab, or ends at a tool. A trilinear field has its kinks, and with them many of its maxima, on
+/// planes of voxels, so that few samples tell much (docs/decisions/029-sampled-maxima.md).
 ///
 /// Bricks of voxels are drawn the brightest first, as `max_picture_by_cells` does. Where the rays
 /// of 32 x 32 pixels have no axis that all are steep to (a wide view in few pixels), and for

@@ -60,6 +60,11 @@ TEST_F(Command, WrongUseIsStatusTwo) {
   expect_refusal("reference ball.nii -o a.png --threads 0", 2, "threads");
   expect_refusal("reference ball.nii -o no/such/folder/a.png", 2, "cannot be created");
   expect_refusal("reference ball.nii -o a.png --frobnicate", 2, "frobnicate");
+  expect_refusal("render ball.nii --method sampled --mode sum -o a.png", 2, "expected max");
+  expect_refusal("render ball.nii --method sampled --samples 0 -o a.png", 2, "samples");
+  expect_refusal("render ball.nii --method sampled --samples 17 -o a.png", 2, "samples");
+  expect_refusal("render ball.nii --samples 2 -o a.png", 2, "--method sampled");
+  expect_refusal("render ball.glb --method sampled -o a.png", 2, "volume");
   expect_refusal("phantom", 2, "NAME");
   expect_refusal("phantom unicorn -o a.nii", 2, "unicorn");
   expect_refusal("phantom spheres -o a.doc", 2, ".nrrd");
@@ -104,6 +109,30 @@ TEST_F(Command, RenderExactIsTheReferenceBitForBit) {
       0);
   EXPECT_EQ(testing::read_bytes(folder_.path() / "a.tif"),
             testing::read_bytes(folder_.path() / "b.tif"));
+}
+
+TEST_F(Command, RenderSampledIsNearTheReferenceAndNotAboveIt) {
+  const std::string view = "ball.nii --window 0,28 --azimuth 20 --elevation 10 --size 64x64";
+  ASSERT_EQ(nacre("reference " + view + " -o a.tif").status, 0);
+  const CommandResult result =
+      nacre("render " + view + " --method sampled --samples 4 -o b.tif --json -");
+  ASSERT_EQ(result.status, 0) << result.errors;
+  const json figures = json::parse(result.output);
+  EXPECT_EQ(figures["backend"], "sampled");
+  EXPECT_NE(figures["renderer"].get<std::string>().find("4 a voxel"), std::string::npos);
+  const Image exact = read_picture(folder_.path() / "a.tif").image;
+  const Image sampled = read_picture(folder_.path() / "b.tif").image;
+  double most = 0.0;
+  for (std::size_t i = 0; i < exact.pixels.size(); ++i) {
+    EXPECT_LE(sampled.pixels[i], exact.pixels[i] + 1e-4F);
+    most = std::max(most, static_cast<double>(exact.pixels[i] - sampled.pixels[i]));
+  }
+  EXPECT_GT(most, 0.0);
+  EXPECT_LT(most, 0.05);
+  ASSERT_EQ(nacre("render " + view + " --method sampled --samples 4 --threads 1 -o c.tif").status,
+            0);
+  EXPECT_EQ(testing::read_bytes(folder_.path() / "b.tif"),
+            testing::read_bytes(folder_.path() / "c.tif"));
 }
 
 TEST_F(Command, TurntableNumbersItsPictures) {
