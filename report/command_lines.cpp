@@ -15,7 +15,7 @@ std::string_view mode_name(PictureMode mode) {
   return "";
 }
 
-/// Flags of what is shown, which shells and the exact walk share.
+/// Flags of what is shown, which shells, samples and the exact walk share.
 std::string subject_flags(const Subject& subject, const CommandTexts& texts) {
   std::string flags = fmt::format(" --mode {} {}", mode_name(subject.mode), texts.camera);
   if (subject.cued) {
@@ -63,12 +63,21 @@ std::string peer_line(const PeerRecipe& peer, const CommandTexts& texts) {
                      texts.camera, peer.caster, peer.step);
 }
 
+std::string sampled_line(const Method& method, const CommandTexts& texts) {
+  return fmt::format("nacre render {} --method sampled --samples {}{} -o sampled-%03d.tif",
+                     texts.volume, *method.samples, subject_flags(method.subject, texts));
+}
+
 }  // namespace
 
 std::vector<std::string> command_lines(const Method& method, const CommandTexts& texts) {
   if (method.peer) {
     return {peer_line(*method.peer, texts), exact_line(method.subject, texts),
             "nacre compare peer-%03d.tif exact-%03d.tif"};
+  }
+  if (method.samples) {
+    return {sampled_line(method, texts), exact_line(method.subject, texts),
+            "nacre compare sampled-%03d.tif exact-%03d.tif"};
   }
   if (!method.shells) return {exact_line(method.subject, texts)};
   return {build_line(*method.shells, texts), render_line(method, texts),

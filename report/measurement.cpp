@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <chrono>
 #include <map>
+#include <optional>
 #include <utility>
 
+#include "casting/sampled_maximum.h"
 #include "core/error.h"
 #include "reference/exact_picture.h"
 #include "reference/exact_walk.h"
@@ -23,6 +25,9 @@ double seconds_since(Clock::time_point start) {
 }
 
 constexpr const char* kWalker = "exact walk of the trilinear field, double precision";
+constexpr const char* kSampler = "samples of the trilinear field, single precision";
+
+bool has_samples(const Measured& row) { return row.method.samples.has_value(); }
 
 /// Times of one row over all passes.
 struct Times {
@@ -65,11 +70,12 @@ class Measurement {
       rows_.push_back(std::move(row));
     }
     times_.resize(rows_.size());
+    if (std::ranges::any_of(rows_, has_samples)) sampler_.emplace(walk_);
   }
 
   MeasurementResult run() {
     make_truths();
-    meet_peers();
+    meet_sampled();
     int pass = 0;
     double longest = 0.0;
     while (pass < options_.most_passes &&
@@ -132,10 +138,38 @@ class Measurement {
     tell(-1, 1.0);
   }
 
-  /// The peers' pictures, for their errors; what compiles or allocates at first has done it then.
-  void meet_peers() {
+  Picture sampled_view(const Method& method, std::size_t view, double& seconds) const {
+    SampledMaximumOptions sampled{.per_cell = *method.samples, .slab = options_.slab};
+    if (method.subject.cued) sampled.cue = options_.cue;
+    if (method.subject.with_tool) sampled.tools = &tools_;
+    const auto start = Clock::now();
+    Picture picture = sampler_->picture(options_.cameras[view], sampled);
+    seconds = seconds_since(start);
+    return picture;
+  }
+
+  Picture peer_view(Measured& row, std::size_t view, double& seconds) {
+    if (options_.peers == nullptr)
+      throw Error(ErrorCode::Unsupported, "VTK's program did not start");
+    PeerFrame frame = options_.peers->draw(*row.method.peer, view);
+    row.device = frame.device;
+    seconds = frame.seconds;
+    Picture picture;
+    picture.volume = std::move(frame.picture);
+    return picture;
+  }
+
+  /// A view by samples along rays, here or in a peer.
+  Picture view_of(Measured& row, std::size_t view, double& seconds) {
+    return row.method.samples ? sampled_view(row.method, view, seconds)
+                              : peer_view(row, view, seconds);
+  }
+
+  /// The pictures by samples and of peers, for their errors; what compiles or allocates at first
+  /// has done it then.
+  void meet_sampled() {
     for (Measured& row : rows_) {
-      if (!row.method.peer) continue;
+      if (!is_sampled(row.method)) continue;
       try {
         meet(row);
       } catch (const Error& error) {
@@ -146,17 +180,15 @@ class Measurement {
   }
 
   void meet(Measured& row) {
-    if (options_.peers == nullptr)
-      throw Error(ErrorCode::Unsupported, "VTK's program did not start");
     std::vector<Image> pictures;
+    double ignored = 0.0;
     for (std::size_t view = 0; view < options_.cameras.size(); ++view) {
-      PeerFrame frame = options_.peers->draw(*row.method.peer, view);
-      row.device = frame.device;
-      pictures.push_back(std::move(frame.picture));
+      Picture picture = view_of(row, view, ignored);
+      pictures.push_back(picture.volume);
+      if (view == 0) row.first_view = std::move(picture);
     }
     row.bytes = options_.input_bytes;
     judge(row, pictures);
-    row.first_view.volume = std::move(pictures.front());
   }
 
   Times& times_of(const Measured& row) {
@@ -183,6 +215,7 @@ class Measurement {
   void one_pass(int pass) {
     tell(pass, 0.0);
     prepare_walk(pass);
+    prepare_sampler(pass);
     const auto all = groups();
     double done = 0.0;
     for (const std::vector<Measured*>& group : all) {
@@ -200,13 +233,33 @@ class Measurement {
     exact_picture(again, options_.cameras.front());
     const auto peak = memory.peak_bytes();
     for (Measured& row : rows_) {
-      if (!is_exact(row.method)) continue;
-      times_of(row).build.push_back(seconds);
-      row.device = kWalker;
-      row.bytes = options_.input_bytes;
-      raise(row.draw_peak_bytes, peak);
-      if (pass == 0) times_of(row).load.push_back(options_.read_seconds);
+      if (is_exact(row.method)) prepared(row, kWalker, seconds, peak, pass);
     }
+  }
+
+  /// What samples need before their first picture: the walk, too.
+  void prepare_sampler(int pass) {
+    if (!sampler_) return;
+    const MemoryWatch memory;
+    const auto start = Clock::now();
+    const ExactWalk walk(volume_, emission_);
+    const SampledMaximum again(walk);
+    const double seconds = seconds_since(start);
+    again.picture(options_.cameras.front());
+    const auto peak = memory.peak_bytes();
+    for (Measured& row : rows_) {
+      if (has_samples(row) && row.left_out.empty()) prepared(row, kSampler, seconds, peak, pass);
+    }
+  }
+
+  /// A row that this program draws from the volume has been prepared.
+  void prepared(Measured& row, const char* device, double seconds,
+                const std::optional<std::size_t>& peak, int pass) {
+    times_of(row).build.push_back(seconds);
+    row.device = device;
+    row.bytes = options_.input_bytes;
+    raise(row.draw_peak_bytes, peak);
+    if (pass == 0) times_of(row).load.push_back(options_.read_seconds);
   }
 
   void measure_group(const std::vector<Measured*>& group, int pass) {
@@ -229,7 +282,7 @@ class Measurement {
         if (view == 0) row->first_view = std::move(picture);
       }
       walk_beside(trial.rows(), view);
-      peers_beside(trial.rows(), view);
+      samples_beside(trial.rows(), view);
     }
     for (Measured* row : trial.rows()) {
       if (pass == 0) judge(*row, pictures.at(row));
@@ -253,11 +306,13 @@ class Measurement {
     }
   }
 
-  /// The peers' pictures of the same subjects, likewise.
-  void peers_beside(std::span<Measured* const> shown, std::size_t view) {
+  /// The pictures by samples and of peers of the same subjects, likewise.
+  void samples_beside(std::span<Measured* const> shown, std::size_t view) {
     for (Measured& row : rows_) {
-      if (!row.method.peer || !row.left_out.empty() || !is_beside(row, shown)) continue;
-      times_of(row).frames.push_back(options_.peers->draw(*row.method.peer, view).seconds);
+      if (!is_sampled(row.method) || !row.left_out.empty() || !is_beside(row, shown)) continue;
+      double seconds = 0.0;
+      view_of(row, view, seconds);
+      times_of(row).frames.push_back(seconds);
     }
   }
 
@@ -292,6 +347,7 @@ class Measurement {
   const ProgressCallback& progress_;
   const ToolRays tools_;
   const ExactWalk walk_;
+  std::optional<SampledMaximum> sampler_;  ///< if a method has samples
   std::vector<Measured> rows_;
   std::vector<Times> times_;
   std::map<Subject, ExactViews> truths_;

@@ -39,9 +39,11 @@ struct Measured {
   Method method;
   std::string left_out;  ///< why there are no figures; empty if there are
   std::string device;    ///< what drew
-  /// Shells: extraction to file bytes; the walk: its bricks; peers: unknown, no samples.
+  /// Shells: extraction to file bytes; the walk: its bricks; samples: the walk, and what is bright
+  /// of its bricks; peers: unknown, no samples.
   Spread build_seconds;
-  /// Shells: bytes to a renderer ready to draw; the walk: reading the file; peers: unknown.
+  /// Shells: bytes to a renderer ready to draw; the walk, samples: reading the file; peers:
+  /// unknown.
   Spread load_seconds;
   Spread frame_seconds;
   std::size_t bytes = 0;  ///< of the shell set's file, or the volume's
@@ -69,13 +71,15 @@ struct MeasurementResult {
 /// Measures methods on the same views of a volume, in alternation.
 ///
 /// A pass goes through all shell recipes: each is built and encoded, decoded and handed to one
-/// renderer a backend; then, view by view, each method draws one frame in turn, the exact walks and
-/// the peers of the same subjects among them. Passes are repeated, so that what the machine does
-/// beside it reaches all methods alike. Each renderer draws one picture before frames are timed.
+/// renderer a backend; then, view by view, each method draws one frame in turn, the exact walks,
+/// the samples and the peers of the same subjects among them. Passes are repeated, so that what the
+/// machine does beside it reaches all methods alike. Each renderer draws one picture before frames
+/// are timed.
 ///
 /// The error is that of the first pass' pictures against the exact ones (`exact_picture`): pictures
-/// do not depend on the pass. A peer draws one picture before frames are timed, too. A method that
-/// its backend refuses, or whose backend does not open here, is left out, with the refusal.
+/// do not depend on the pass. What draws the volume otherwise, samples and peers, has drawn each
+/// view once before frames are timed, for its error. A method that its backend refuses, or whose
+/// backend does not open here, is left out, with the refusal.
 ///
 /// @throws Error  as `build_shells`, `exact_picture` and `encode_shell_set` do
 MeasurementResult measure(const Volume& volume, const EmissionMap& emission,

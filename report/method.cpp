@@ -13,7 +13,7 @@ namespace {
 constexpr std::array<ReportPart, 9> kParts{{
     {"max", "Maximum projection",
      "Each pixel shows the brightest emission along its ray. More levels are closer to the "
-     "volume, and larger."},
+     "volume, and larger; more samples are closer, and slower."},
     {"simplified", "Maximum projection of simplified shells",
      "Shells with fewer triangles: each surface may be off by a stated emission (the tolerance)."},
     {"quantised", "Maximum projection of coarsely stored shells",
@@ -75,6 +75,17 @@ void add_max(MethodList& list, bool quick) {
                 .shells = ShellRecipe{{count}},
                 .backend = backend});
     }
+  }
+}
+
+/// Maximum projections by samples along rays, several numbers of them.
+void add_sampled(MethodList& list, bool quick) {
+  const std::vector<int> numbers = quick ? std::vector<int>{1, 2} : std::vector<int>{1, 2, 4};
+  for (const int samples : numbers) {
+    list.add({.id = fmt::format("max-sampled-{}", samples),
+              .part = "max",
+              .samples = samples,
+              .backend = "sampled"});
   }
 }
 
@@ -230,11 +241,14 @@ std::string text_of(const LevelChoice& choice) {
 
 std::span<const ReportPart> report_parts() { return kParts; }
 
-bool is_exact(const Method& method) { return !method.shells && !method.peer; }
+bool is_exact(const Method& method) { return !method.shells && !is_sampled(method); }
+
+bool is_sampled(const Method& method) { return method.peer || method.samples; }
 
 std::vector<Method> report_methods(const MethodChoice& choice) {
   check_parts(choice.only);
   MethodList list(choice.only);
+  add_sampled(list, choice.quick);
   if (choice.with_peers) add_peers(list, choice.quick);
   add_max(list, choice.quick);
   add_simplified(list, choice.quick);

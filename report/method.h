@@ -60,8 +60,9 @@ struct Method {
   std::string part;  ///< of the report, one of `report_parts`
   Subject subject = {};
   std::optional<ShellRecipe> shells = {};
-  std::optional<PeerRecipe> peer = {};  ///< neither: the exact walk of the volume
-  std::string backend = "exact";        ///< "cpu", "osmesa", "egl"; "vtk-fixed", "vtk-gpu"
+  std::optional<PeerRecipe> peer = {};
+  std::optional<int> samples = {};  ///< a voxel, of a `SampledMaximum`; none of the three: exact
+  std::string backend = "exact";    ///< "cpu", "osmesa", "egl"; "vtk-fixed", "vtk-gpu"; "sampled"
   DepthFormat depth = DepthFormat::D32F;
   TargetFormat target = TargetFormat::F32;
   Occlusion occlusion = Occlusion::Auto;
@@ -69,6 +70,9 @@ struct Method {
 
 /// Whether the exact walk of the volume draws it.
 bool is_exact(const Method& method);
+
+/// Whether it draws the volume itself with an error: by samples, here or in a peer.
+bool is_sampled(const Method& method);
 
 /// A part of the report: methods that differ in one thing.
 struct ReportPart {
@@ -87,8 +91,8 @@ struct MethodChoice {
   std::span<const std::string> only = {};  ///< names of parts; empty: all
 };
 
-/// What is measured: for each part the exact walk first, then what else draws the volume, then
-/// shells through each backend.
+/// What is measured: for each part the exact walk first, then what else draws the volume (samples
+/// along its rays, then peers), then shells through each backend.
 ///
 /// @throws Error BadArgument for a part that does not exist
 std::vector<Method> report_methods(const MethodChoice& choice);

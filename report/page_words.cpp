@@ -13,17 +13,19 @@
 namespace nacre {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kBackends{{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kBackends{{
     {"exact", "exact walk: every ray through the volume itself"},
     {"cpu", "cpu: shells drawn by the processor alone"},
     {"osmesa", "osmesa: shells drawn by OpenGL in software (OSMesa)"},
     {"egl", "egl: shells drawn by OpenGL (EGL)"},
     {"vtk-fixed", "vtk-fixed: the volume drawn by VTK's ray caster on the processor"},
     {"vtk-gpu", "vtk-gpu: the volume drawn by VTK's ray caster in OpenGL (EGL)"},
+    {"sampled", "sampled: samples along every ray through the volume itself"},
 }};
 
 bool has_shells(const Measured& row) { return row.method.shells.has_value(); }
 bool has_peer(const Measured& row) { return row.method.peer.has_value(); }
+bool has_samples(const Measured& row) { return row.method.samples.has_value(); }
 
 /// The row of the kind with the least price; null if there is none.
 const Measured* least(const std::vector<const Measured*>& rows, bool (*kind)(const Measured&),
@@ -49,12 +51,20 @@ std::string definition(std::string_view term, const std::string& text) {
   return fmt::format("<dt>{}</dt><dd>{}</dd>\n", term, text);
 }
 
+/// What rows of samples are, where there are any.
+std::string sample_words(const MeasurementResult& result) {
+  if (std::ranges::none_of(result.rows, has_samples)) return "";
+  return definition(
+      "Samples",
+      "Looks at the volume in a number of places a voxel along the ray of every pixel, and shows "
+      "the brightest of them: too dark wherever the brightest point lies between two. "
+      "Where rays run along an axis of the volume, as in the first view of most turntables, there "
+      "is no such error: values are linear from voxel to voxel there.");
+}
+
 /// What VTK's rows are, where there are any.
 std::string peer_words(const MeasurementResult& result) {
-  if (std::ranges::none_of(result.rows,
-                           [](const Measured& row) { return row.method.peer.has_value(); })) {
-    return "";
-  }
+  if (std::ranges::none_of(result.rows, has_peer)) return "";
   return definition(
       "VTK",
       "The Visualization Toolkit, what most programs draw volumes with: it takes "
@@ -69,6 +79,10 @@ std::string method_words(const Method& method) {
   if (method.peer) {
     return fmt::format("VTK, step {}, {}", method.peer->step,
                        method.peer->caster == "gpu" ? "OpenGL" : "processor");
+  }
+  if (method.samples) {
+    return fmt::format("{} {} a voxel", *method.samples,
+                       *method.samples == 1 ? "sample" : "samples");
   }
   if (!method.shells) {
     const std::string at =
@@ -104,6 +118,7 @@ int style_of(const std::string& backend) {
 
 std::string plot_label(const Method& method) {
   if (method.peer) return fmt::format("{}", method.peer->step);
+  if (method.samples) return fmt::format("{}", *method.samples);
   if (!method.shells) return "exact walk";
   if (method.part == "simplified") return fmt::format("{}", method.shells->tolerance);
   if (method.part == "quantised") {
@@ -171,6 +186,10 @@ std::string outcome_words(const std::vector<const Measured*>& rows) {
         escaped(row->method.id), 1e3 * row->frame_seconds.median,
         1e-6 * static_cast<double>(row->bytes));
   }
+  if (const Measured* sampled = least(rows, has_samples, frame_price)) {
+    html += row_words("Samples at their fastest", *sampled);
+    html += row_words("Samples at their closest", *least(rows, has_samples, error_price));
+  }
   if (const Measured* peer = least(rows, has_peer, frame_price)) {
     html += row_words("VTK at its fastest", *peer);
     html += row_words("VTK at its closest", *least(rows, has_peer, error_price));
@@ -205,7 +224,7 @@ std::string opening_words(const MeasurementResult& result, const ReportContext& 
       definition("Shells",
                  "Closed surfaces at a number of emission levels, made of triangles once and drawn "
                  "from any side, without the volume.") +
-      peer_words(result) +
+      sample_words(result) + peer_words(result) +
       definition("PSNR, RMSE",
                  "How far a picture is from the exact one: the root of the mean squared "
                  "difference, and the same on a logarithmic scale against the brightest possible "
@@ -250,15 +269,16 @@ std::string closing_words(const MeasurementResult& result, const ReportContext& 
   html +=
       definition("Build time",
                  "From the volume in memory to the bytes of the shell file. For the exact walk: "
-                 "the table of brick maxima that lets it skip what cannot matter.");
+                 "the table of brick maxima that lets it skip what cannot matter; for samples that "
+                 "and a copy of what is bright.");
   html += definition("Load time",
                      "From the file's bytes to a renderer that is ready: decoding and "
-                     "handing over. For the exact walk: reading the volume.");
+                     "handing over. For the exact walk and samples: reading the volume.");
   html += definition("Memory",
                      "What the step adds at most to the program's resident memory. "
                      "Building: with a copy of the volume. Drawing: with the OpenGL "
-                     "driver, if it was not loaded before; for the exact walk without "
-                     "the volume.");
+                     "driver, if it was not loaded before; for the exact walk and samples "
+                     "without the volume.");
   html += definition("This page again", "<pre>" + escaped(context.repeats_it) + "</pre>");
   return html + "</dl></section>\n";
 }

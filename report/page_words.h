@@ -36,7 +36,7 @@ std::string spread_words(const Spread& spread, double unit);
 /// "120"; a dash where it is not known.
 std::string megabyte_words(const std::optional<std::size_t>& bytes);
 
-/// What came out of a part: the exact walk, VTK, the fastest, the smallest and the closest shells.
+/// What came out of a part: the exact walk, samples, VTK, the fastest, smallest and closest shells.
 std::string outcome_words(const std::vector<const Measured*>& rows);
 /// The volume, how to read the page.
 std::string opening_words(const MeasurementResult& result, const ReportContext& context);

@@ -66,7 +66,9 @@ std::string plots(const Rows& rows) {
   if (recipes.size() > 1) {  // else all have one price
     html += to_svg(
         {"Error against file size", "kilobytes", 1e3, series_of(rows, [](const Measured& row) {
-           return row.method.peer ? 0.0 : static_cast<double>(row.bytes);  // the walk stands for it
+           return is_sampled(row.method)
+                      ? 0.0
+                      : static_cast<double>(row.bytes);  // the walk stands for it
          })});
     html += to_svg({"Error against build time", "milliseconds", 1e-3,
                     series_of(rows, [](const Measured& row) { return row.build_seconds.median; })});

@@ -39,6 +39,7 @@ ordered_json method_json(const Method& method) {
     json["caster"] = method.peer->caster;
     json["step"] = method.peer->step;
   }
+  if (method.samples) json["samples"] = *method.samples;
   if (!method.shells) return json;
   json["levels"] = text_of(method.shells->levels);
   json["tolerance"] = method.shells->tolerance;
@@ -113,8 +114,8 @@ std::vector<std::string> figure_fields(const Measured& row) {
 }
 
 constexpr std::string_view kCsvNames =
-    "id,part,backend,levels,tolerance,quantization_bits,depth_buffer,target,occlusion,step,left_"
-    "out,"
+    "id,part,backend,levels,tolerance,quantization_bits,depth_buffer,target,occlusion,step,"
+    "samples,left_out,"
     "triangles,bytes,build_s,build_s_q1,build_s_q3,load_s,load_s_q1,load_s_q3,frame_s,frame_s_q1,"
     "frame_s_q3,build_peak_bytes,draw_peak_bytes,psnr_lit_db,rmse_lit,max_error_lit,psnr_all_db,"
     "rmse_all,max_error_all,device";
@@ -132,6 +133,7 @@ std::string csv_line(const Measured& row) {
     line += ",,,,,";
   }
   line += method.peer ? fmt::format(",{}", method.peer->step) : ",";
+  line += method.samples ? fmt::format(",{}", *method.samples) : ",";
   line += fmt::format(",{}", field(row.left_out));
   if (row.left_out.empty()) {
     for (const std::string& figure : figure_fields(row)) line += fmt::format(",{}", figure);

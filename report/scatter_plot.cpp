@@ -23,8 +23,8 @@ constexpr double kTop = 66.0;      ///< of the PSNR axis
 constexpr double kBottom = 48.0;
 
 /// Told apart also by the colour-blind (M. Okabe, K. Ito, 2008).
-constexpr std::array<const char*, 6> kColors{"#222222", "#0072b2", "#d55e00",
-                                             "#009e73", "#aa4499", "#8a6d00"};
+constexpr std::array<const char*, 7> kColors{"#222222", "#0072b2", "#d55e00", "#009e73",
+                                             "#aa4499", "#8a6d00", "#3d9bd1"};
 
 struct Range {
   double lo = std::numeric_limits<double>::infinity();
@@ -126,12 +126,15 @@ std::string axes(const ScatterPlot& plot, const Frame& frame) {
   return svg;
 }
 
-/// A regular polygon about a point, first corner at the angle given.
-std::string polygon(double x, double y, int corners, double radius, double angle_rad) {
+/// A regular polygon about a point, first corner at the angle given; a star if every other corner
+/// is pulled in to a part of the radius.
+std::string polygon(double x, double y, int corners, double radius, double angle_rad,
+                    double inner = 1.0) {
   std::string points;
   for (int i = 0; i < corners; ++i) {
     const double a = angle_rad + 2.0 * std::numbers::pi * i / corners;
-    points += fmt::format("{:.1f},{:.1f} ", x + radius * std::cos(a), y + radius * std::sin(a));
+    const double r = i % 2 == 0 ? radius : inner * radius;
+    points += fmt::format("{:.1f},{:.1f} ", x + r * std::cos(a), y + r * std::sin(a));
   }
   return fmt::format(R"(<polygon points="{}")", points);
 }
@@ -145,7 +148,8 @@ std::string mark(double x, double y, int style, bool full, const std::string& ti
     case 2: shape = polygon(x, y, 4, 6.5, std::numbers::pi / 4.0); break;
     case 3: shape = polygon(x, y, 3, 7.0, -std::numbers::pi / 2.0); break;
     case 4: shape = polygon(x, y, 3, 7.0, std::numbers::pi / 2.0); break;
-    default: shape = polygon(x, y, 5, 6.5, -std::numbers::pi / 2.0); break;
+    case 5: shape = polygon(x, y, 5, 6.5, -std::numbers::pi / 2.0); break;
+    default: shape = polygon(x, y, 8, 8.0, 0.0, 0.4); break;  // a star of four rays
   }
   const char* color = kColors[kind];
   return fmt::format(R"({} fill="{}" stroke="{}" stroke-width="1.8"><title>{}</title></{}>)", shape,

@@ -63,6 +63,30 @@ TEST(ReportMethods, EveryPartHasTheExactWalkOfEachSubject) {
   }
 }
 
+TEST(ReportMethods, SamplesComeAfterTheExactMaximumBeforePeersAndShells) {
+  const std::vector<std::string> only{"max"};
+  for (const bool quick : {true, false}) {
+    const std::vector<Method> methods =
+        report_methods({.quick = quick, .with_peers = true, .only = only});
+    EXPECT_TRUE(is_exact(methods.front()));
+    const std::vector<int> numbers = quick ? std::vector<int>{1, 2} : std::vector<int>{1, 2, 4};
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      const Method& method = methods.at(1 + i);
+      EXPECT_EQ(method.id, "max-sampled-" + std::to_string(numbers[i]));
+      EXPECT_EQ(method.samples, numbers[i]);
+      EXPECT_EQ(method.backend, "sampled");
+      EXPECT_FALSE(is_exact(method));
+    }
+    EXPECT_TRUE(methods.at(1 + numbers.size()).peer);
+  }
+}
+
+TEST(ReportMethods, SamplesNeedNoPeers) {
+  const std::vector<Method> methods = report_methods({.quick = true});
+  EXPECT_EQ(std::ranges::count_if(methods, [](const Method& m) { return m.samples.has_value(); }),
+            2);
+}
+
 TEST(ReportMethods, RefuseUnknownParts) {
   const std::vector<std::string> only{"max", "speed"};
   testing::expect_error(ErrorCode::BadArgument, "'speed', expected some of max,",

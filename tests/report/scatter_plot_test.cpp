@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <set>
 #include <string>
+
+#include "report/page_words.h"
 
 namespace nacre {
 namespace {
@@ -49,6 +52,13 @@ TEST(ScatterPlot, CheaperIsLeftAndBetterIsUp) {
   const std::size_t second = svg.find("<circle", svg.find("<circle") + 1);
   EXPECT_LT(number_after("cx=\"", 0), number_after("cx=\"", second));
   EXPECT_GT(number_after("cy=\"", 0), number_after("cy=\"", second));
+}
+
+TEST(ScatterPlot, EveryBackendHasAMarkOfItsOwn) {
+  std::set<std::string> marks;
+  for (const char* backend : {"exact", "sampled", "cpu", "osmesa", "egl", "vtk-fixed", "vtk-gpu"}) {
+    EXPECT_TRUE(marks.insert(legend_mark(style_of(backend))).second) << backend;
+  }
 }
 
 TEST(ScatterPlot, NothingToShowIsNoPlot) { EXPECT_EQ(to_svg({"", "", 1.0, {}}), ""); }
