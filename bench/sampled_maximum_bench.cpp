@@ -1,9 +1,11 @@
 #include <benchmark/benchmark.h>
 #include <fmt/core.h>
 
+#include <array>
 #include <cmath>
 #include <ctime>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "bench/scans.h"
@@ -74,8 +76,8 @@ void exact_and_sampled(benchmark::State& state, const Scan& scan, int per_cell) 
   state.counters["all_db"] = errors.psnr(errors.pixels);
 }
 
-/// Sampled maxima alone.
-void sampled(benchmark::State& state, const Scan& scan, int per_cell) {
+/// Sampled maxima alone, by the kernel for an instruction set.
+void sampled(benchmark::State& state, const Scan& scan, int per_cell, InstructionSet set) {
   const Volume volume = read_scan(scan.file);
   const ExactWalk walk(volume, EmissionMap::window(scan.lo, scan.hi));
   const BoundingSphere sphere = bounding_sphere(volume.dims, volume.world_from_voxel);
@@ -83,9 +85,13 @@ void sampled(benchmark::State& state, const Scan& scan, int per_cell) {
   int frame = 0;
   for (auto _ : state) {
     const Camera camera = make_camera({.size = {512, 512}, .azimuth_rad = 0.1 * frame++}, sphere);
-    benchmark::DoNotOptimize(maximum.picture(camera, {.per_cell = per_cell}));
+    benchmark::DoNotOptimize(maximum.picture(camera, {.per_cell = per_cell, .instructions = set}));
   }
 }
+
+constexpr std::array kSets{std::pair("baseline", InstructionSet::Baseline),
+                           std::pair("avx2", InstructionSet::Avx2),
+                           std::pair("avx512", InstructionSet::Avx512)};
 
 void register_scans() {
   if (!has_test_data()) return;
@@ -96,10 +102,15 @@ void register_scans() {
           [scan, samples](benchmark::State& state) { exact_and_sampled(state, scan, samples); })
           ->Iterations(36)
           ->Unit(benchmark::kMillisecond);
-      benchmark::RegisterBenchmark(
-          fmt::format("sampled/{}/{}", scan.name, samples).c_str(),
-          [scan, samples](benchmark::State& state) { sampled(state, scan, samples); })
-          ->Unit(benchmark::kMillisecond);
+      for (const auto& [name, set] : kSets) {
+        if (!has_instruction_set(set)) continue;
+        benchmark::RegisterBenchmark(
+            fmt::format("sampled/{}/{}/{}", scan.name, samples, name).c_str(),
+            [scan, samples, set = set](benchmark::State& state) {
+              sampled(state, scan, samples, set);
+            })
+            ->Unit(benchmark::kMillisecond);
+      }
     }
   }
 }

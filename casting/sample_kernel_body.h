@@ -75,6 +75,14 @@ inline Floats mix(const Floats& a, const Floats& b, const Floats& s) { return a 
 inline Floats look_up(const float* plane, const Ints& at) {
 #if NACRE_VECTOR_BYTES == 64
   return __builtin_shuffle(load(plane), load(plane + kLanes), at);
+#elif NACRE_VECTOR_BYTES == 32
+  // Four permutations and three choices: half the time of looking up lane by lane.
+  Floats found[4];
+  for (int i = 0; i < 4; ++i) found[i] = __builtin_shuffle(load(plane + kLanes * i), at);
+  const Ints odd = (at & 8) != 0;
+  const Floats lower = odd ? found[1] : found[0];
+  const Floats upper = odd ? found[3] : found[2];
+  return (at & 16) != 0 ? upper : lower;
 #else
   Floats found;
   for (int lane = 0; lane < kLanes; ++lane) found[lane] = plane[at[lane]];
@@ -198,6 +206,7 @@ inline void cross_plane(const Lines& lines, const CastBrick& brick, const Planes
   seen.u = (lines.u + seen.plane * lines.du) - brick.first[0];
   seen.v = (lines.v + seen.plane * lines.dv) - brick.first[1];
   seen.mask = within(seen.u, brick.extent[0]) & within(seen.v, brick.extent[1]);
+  if (kLanes < BlockRays::kRays && !any(seen.mask)) return;
   seen.sample = bilinear(planes.sample[j], seen.u, seen.v);
 }
 
@@ -273,7 +282,7 @@ inline void for_samples(const BlockRays& rays, const CastBrick& brick,
         if (!filled) fill(brick, cue, planes);
         filled = true;
         const Lines lines{load(rays.u + i), load(rays.v + i), load(rays.du + i), load(rays.dv + i)};
-        Seen seen;
+        Seen seen{};
         const auto raise_best = [&](float most) {
           if (rays.first_plane != nullptr) {
             seen.mask &= (seen.plane >= load(rays.first_plane + i)) &
