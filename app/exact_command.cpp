@@ -26,16 +26,20 @@ struct Timing {
   double load = 0.0;
   double upload = 0.0;
   std::vector<double> frames;
+  std::size_t sampled = 0;  ///< of the frames
   double write = 0.0;
 };
 
-/// "exact", or "2 a voxel".
-std::string how(const ExactScene& scene) {
-  return scene.samples() > 0 ? fmt::format("{} a voxel", scene.samples()) : std::string("exact");
+/// "exact", "2 a voxel", or, where some views are not of samples, "2 a voxel, 1 exact".
+std::string how(const ExactScene& scene, const Timing& timing) {
+  if (timing.sampled == 0) return "exact";
+  const std::size_t exact = timing.frames.size() - timing.sampled;
+  return fmt::format("{} a voxel", scene.samples()) +
+         (exact > 0 ? fmt::format(", {} exact", exact) : std::string());
 }
 
-const char* pass_of(const ExactFlags& flags, const ExactScene& scene) {
-  if (scene.samples() > 0) return "sample every bright brick";
+const char* pass_of(const ExactFlags& flags, const ExactScene& scene, const Timing& timing) {
+  if (timing.sampled > 0) return "sample every bright brick";
   const bool by_cells = flags.picture.mode == "max" && !scene.shows_shells();
   return by_cells ? "draw every bright cell" : "walk every ray";
 }
@@ -45,10 +49,10 @@ ordered_json figures(const ExactFlags& flags, const EmissionVolume& input, const
   const Image& image = result.last.volume;
   const auto [least, greatest] = std::minmax_element(image.pixels.begin(), image.pixels.end());
   ordered_json json;
-  json["backend"] = scene.samples() > 0 ? "sampled" : "exact";
+  json["backend"] = timing.sampled > 0 ? "sampled" : "exact";
   json["renderer"] =
-      scene.samples() > 0
-          ? fmt::format("samples of the trilinear field, {}, single precision", how(scene))
+      timing.sampled > 0
+          ? fmt::format("samples of the trilinear field, {}, single precision", how(scene, timing))
           : std::string("exact walk of the trilinear field, double precision");
   json["mode"] = flags.picture.mode;
   json["window"] = {input.emission.lo(), input.emission.hi()};
@@ -56,7 +60,7 @@ ordered_json figures(const ExactFlags& flags, const EmissionVolume& input, const
       {"width", image.width}, {"height", image.height}, {"least", *least}, {"greatest", *greatest}};
   if (result.window) json["display"] = {result.window->lo, result.window->hi};
   if (scene.shows_shells()) json["levels"] = scene.level_figures();
-  json["passes"] = {pass_of(flags, scene)};
+  json["passes"] = {pass_of(flags, scene, timing)};
   json["left_out"] = ordered_json::array();
   json["triangles_drawn"] = 0;
   json["seconds"] = {{"load", timing.load},
@@ -100,17 +104,24 @@ void run_exact(const ExactFlags& flags) {
   const auto draw = [&](int view) {
     camera.azimuth_rad = start + 2.0 * std::numbers::pi * view / views;
     watch.lap();
-    Picture picture = scene.draw(walk, make_camera(camera, sphere), reporter.progress());
+    const Camera seen = make_camera(camera, sphere);
+    Picture picture = scene.draw(walk, seen, reporter.progress());
     timing.frames[static_cast<std::size_t>(view)] = watch.lap();
+    timing.sampled += scene.takes_samples(seen) ? 1 : 0;
     return picture;
   };
   const TurntableResult result =
       write_views(flags.picture, {.views = views, .tools = !flags.scene.tools.empty()}, draw);
   timing.write = result.write_seconds;
   const Image& image = result.last.volume;
+  if (scene.samples() > 0 && timing.sampled == 0) {
+    reporter.warn(
+        "--method sampled: found a view or values that floats do not resolve, the exact picture is "
+        "drawn");
+  }
   reporter.say(fmt::format("{} {} of {} x {} pixels, {:.1f} ms a frame ({}){}{}", views,
                            views == 1 ? "picture" : "pictures", image.width, image.height,
-                           1e3 * median(timing.frames), how(scene),
+                           1e3 * median(timing.frames), how(scene, timing),
                            flags.picture.output.empty() ? "" : " -> ", flags.picture.output));
   reporter.finish(figures(flags, input, scene, result, timing));
 }

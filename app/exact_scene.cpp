@@ -42,6 +42,10 @@ void ExactScene::prepare(const ExactWalk& walk) {
   if (samples_ > 0) sampled_ = std::make_unique<const SampledMaximum>(walk);
 }
 
+bool ExactScene::takes_samples(const Camera& camera) const {
+  return sampled_ && sampled_->takes_samples(camera, options_.cue);
+}
+
 Picture ExactScene::draw(const ExactWalk& walk, const Camera& camera,
                          const ProgressCallback& progress) const {
   if (sampled_) {

@@ -33,6 +33,9 @@ class ExactScene {
   /// Samples a voxel that a maximum is drawn by; 0: it is exact.
   int samples() const { return samples_; }
 
+  /// Whether a camera's picture is one of samples.
+  bool takes_samples(const Camera& camera) const;
+
   /// What `exact_picture`, `ideal_picture` or a sampled maximum is asked for.
   Picture draw(const ExactWalk& walk, const Camera& camera, const ProgressCallback& progress) const;
 

@@ -179,7 +179,8 @@ struct Lines {
   Floats u, v, du, dv;
 };
 
-/// So little beyond a brick's faces counts as inside, so that rounding loses no sample.
+/// So little beyond a brick's faces counts as inside, so that rays along the volume's border are.
+/// (Between bricks none is lost: they work a place out alike.)
 constexpr float kHair = 1e-5F;
 
 inline Ints within(const Floats& place, float extent) {

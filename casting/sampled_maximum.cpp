@@ -251,65 +251,117 @@ void draw_tiles(const Frame& frame, Picture& picture, const ProgressCallback& pr
       tbb::simple_partitioner());
 }
 
-/// Of each tile; nothing if the rays of one have no axis in common.
-std::optional<std::vector<CastAxes>> axes_of_tiles(const WalkField& field, const Camera& camera,
-                                                   const TileLists& lists) {
-  std::vector<CastAxes> axes(lists.begin.size() - 1);
-  for (std::size_t tile = 0; tile < axes.size(); ++tile) {
-    const auto found = steep_axes(field, camera, lists.pixels(tile, kTile, camera.size));
-    if (!found) return std::nullopt;
-    axes[tile] = *found;
+/// Of each tile, row by row; nothing if the rays of one have no axis in common.
+std::optional<std::vector<CastAxes>> axes_of_tiles(const WalkField& field, const Camera& camera) {
+  std::vector<CastAxes> axes;
+  glm::ivec2 first(0);
+  for (first.y = 0; first.y < camera.size.y; first.y += kTile) {
+    for (first.x = 0; first.x < camera.size.x; first.x += kTile) {
+      if (!camera.perspective && !axes.empty()) {
+        axes.push_back(axes.front());
+        continue;
+      }
+      const PixelRange pixels{first, glm::min(first + kTile, camera.size) - 1};
+      const auto found = steep_axes(field, camera, pixels);
+      if (!found) return std::nullopt;
+      axes.push_back(*found);
+    }
   }
   return axes;
 }
 
-void check(const ExactWalk& walk, const SampledMaximumOptions& options, bool cued) {
+CastScale scale_of(const EmissionMap& map) { return {map.lo(), 1.0 / (map.hi() - map.lo())}; }
+
+/// The most emission that rounding of places and samples to floats may come to: steps of places of
+/// some 4 times the cells along the volume, times the steepest slopes of samples and map. Infinity
+/// where no float holds a sample.
+double rounding_of(const WalkField& field) {
+  constexpr double kStep = 0x1p-24;
+  constexpr double kMost = 1e30;
+  const EmissionMap& map = field.emission_of_field;
+  const CastScale scale = scale_of(map);
+  const double width = map.hi() - map.lo();
+  double most = 1.0;
+  for (const double sample : field.bricks.least) {
+    most = std::max(most, std::abs((sample - scale.lo) * scale.inverse));
+  }
+  for (const double sample : field.bricks.greatest) {
+    most = std::max(most, std::abs((sample - scale.lo) * scale.inverse));
+  }
+  double steepest = 0.0;
+  const auto knots = map.knots();
+  for (std::size_t i = 1; i < knots.size(); ++i) {
+    const double rise = knots[i].emission - knots[i - 1].emission;
+    steepest = std::max(steepest, rise / ((knots[i].value - knots[i - 1].value) / width));
+  }
+  const auto cells = static_cast<double>(std::max({field.cells.x, field.cells.y, field.cells.z}));
+  const double rounding = kStep * (4.0 * cells + 8.0) * most * steepest;
+  return most < kMost && std::isfinite(width) && std::isfinite(scale.inverse)
+             ? rounding
+             : std::numeric_limits<double>::infinity();
+}
+
+/// Whether floats hold a cue anywhere in the volume.
+bool fits_floats(const WalkField& field, const CellCue& cue) {
+  constexpr double kMost = 1e30;
+  return std::abs(cue.at_origin()) + glm::dot(glm::abs(cue.rise()), glm::dvec3(field.cells)) <
+         kMost;
+}
+
+void check(const SampledMaximumOptions& options) {
   check_cue(options.cue);
   check_slab(options.slab);
   if (options.per_cell < 1 || options.per_cell > kMostSamplesPerCell) {
     throw Error(ErrorCode::BadArgument, fmt::format("samples a voxel: found {}, expected 1 to {}",
                                                     options.per_cell, kMostSamplesPerCell));
   }
-  const std::size_t pieces = walk.field().emission_of_field.knots().size() - 1;
-  if (cued && pieces > 1) {
-    throw Error(ErrorCode::Unsupported,
-                fmt::format("a sampled maximum under a cue: found an emission map of {} pieces, "
-                            "expected one (the exact maximum takes any)",
-                            pieces));
-  }
 }
 
-CastScale scale_of(const EmissionMap& map) { return {map.lo(), 1.0 / (map.hi() - map.lo())}; }
+void check_pieces(const EmissionMap& map) {
+  const std::size_t pieces = map.knots().size() - 1;
+  if (pieces == 1) return;
+  throw Error(ErrorCode::Unsupported,
+              fmt::format("a sampled maximum under a cue: found an emission map of {} pieces, "
+                          "expected one (the exact maximum takes any)",
+                          pieces));
+}
 
 }  // namespace
 
 SampledMaximum::SampledMaximum(const ExactWalk& walk) : walk_(&walk) {
-  const EmissionMap& map = walk.field().emission_of_field;
-  const CastScale scale = scale_of(map);
-  if (!std::isfinite(map.hi() - map.lo()) || !std::isfinite(scale.inverse)) return;
-  bricks_ = std::make_unique<const CastBricks>(walk.field(), walk.bright_bricks(), scale);
+  constexpr double kMostRounding = 0.01;
+  const WalkField& field = walk.field();
+  if (!(rounding_of(field) <= kMostRounding)) return;
+  bricks_ = std::make_unique<const CastBricks>(field, walk.bright_bricks(),
+                                               scale_of(field.emission_of_field));
 }
 
 SampledMaximum::~SampledMaximum() = default;
 SampledMaximum::SampledMaximum(SampledMaximum&&) noexcept = default;
 
+bool SampledMaximum::takes_samples(const Camera& camera, const DepthCue& cue) const {
+  const WalkField& field = walk_->field();
+  return bricks_ && axes_of_tiles(field, camera) &&
+         fits_floats(field, CellCue(field, cue_field(cue, camera)));
+}
+
 Picture SampledMaximum::picture(const Camera& camera, const SampledMaximumOptions& options,
                                 const ProgressCallback& progress) const {
-  const WalkField& field = walk_->field();
-  const CueField cue = cue_field(options.cue, camera);
-  const bool cued = !is_flat(cue);
-  check(*walk_, options, cued);
-  const BrightBricks& bright = walk_->bright_bricks();
-  const CellRectangles rectangles(field, camera);
-  std::vector<PixelRange> of_brick = rectangles_of(bright, rectangles, camera.size);
-  TileLists lists = make_tile_lists(of_brick, camera.size, kTile);
-  auto axes = axes_of_tiles(field, camera, lists);
-  if (!bricks_ || !axes) {
+  check(options);
+  if (!takes_samples(camera, options.cue)) {
     return exact_picture(*walk_, camera,
                          {.cue = options.cue, .slab = options.slab, .tools = options.tools},
                          progress);
   }
+  const WalkField& field = walk_->field();
   const EmissionMap& map = field.emission_of_field;
+  const CueField cue = cue_field(options.cue, camera);
+  const bool cued = !is_flat(cue);
+  if (cued) check_pieces(map);
+  const BrightBricks& bright = walk_->bright_bricks();
+  const CellRectangles rectangles(field, camera);
+  std::vector<PixelRange> of_brick = rectangles_of(bright, rectangles, camera.size);
+  TileLists lists = make_tile_lists(of_brick, camera.size, kTile);
   const Scene scene{field,
                     bright,
                     *bricks_,
@@ -329,7 +381,7 @@ Picture SampledMaximum::picture(const Camera& camera, const SampledMaximumOption
                     PixelLines(field, camera, options.slab),
                     std::move(of_brick),
                     std::move(lists),
-                    std::move(*axes)};
+                    *axes_of_tiles(field, camera)};
   Picture picture = make_picture(camera, options.tools);
   draw_tiles(frame, picture, progress);
   drop_unseen_tools(picture);

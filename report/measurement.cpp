@@ -142,6 +142,11 @@ class Measurement {
     SampledMaximumOptions sampled{.per_cell = *method.samples, .slab = options_.slab};
     if (method.subject.cued) sampled.cue = options_.cue;
     if (method.subject.with_tool) sampled.tools = &tools_;
+    if (!sampler_->takes_samples(options_.cameras[view], sampled.cue)) {
+      throw Error(ErrorCode::Unsupported,
+                  "samples of this view: found none, the exact picture is "
+                  "drawn instead");
+    }
     const auto start = Clock::now();
     Picture picture = sampler_->picture(options_.cameras[view], sampled);
     seconds = seconds_since(start);

@@ -40,7 +40,7 @@ struct Measured {
   std::string left_out;  ///< why there are no figures; empty if there are
   std::string device;    ///< what drew
   /// Shells: extraction to file bytes; the walk: its bricks; samples: the walk, and what is bright
-  /// of its bricks; peers: unknown, no samples.
+  /// of its bricks; peers: unknown, never measured.
   Spread build_seconds;
   /// Shells: bytes to a renderer ready to draw; the walk, samples: reading the file; peers:
   /// unknown.

@@ -129,6 +129,11 @@ TEST_F(Command, RenderSampledIsNearTheReferenceAndNotAboveIt) {
   }
   EXPECT_GT(most, 0.0);
   EXPECT_LT(most, 0.05);
+  const CommandResult wide = nacre(
+      "render ball.nii --window 0,28 --size 16x16 --azimuth 45 --perspective 150 --distance 2 "
+      "--method sampled -o d.tif --json -");
+  EXPECT_EQ(json::parse(wide.output)["backend"], "exact");
+  EXPECT_NE(wide.errors.find("the exact picture is drawn"), std::string::npos);
   ASSERT_EQ(nacre("render " + view + " --method sampled --samples 4 --threads 1 -o c.tif").status,
             0);
   EXPECT_EQ(testing::read_bytes(folder_.path() / "b.tif"),

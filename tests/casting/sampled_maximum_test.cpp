@@ -347,8 +347,46 @@ TEST(SampledMaximum, IsExactWhereRaysOfATileSpreadTooFar) {
                                            .field_of_view_rad = 120 * kDegree,
                                            .distance_mm = 0.3});
   EXPECT_FALSE(steep_axes(walk.field(), camera, {{0, 0}, {19, 19}}));
-  EXPECT_EQ(SampledMaximum(walk).picture(camera).volume.pixels,
-            exact_picture(walk, camera).volume.pixels);
+  const SampledMaximum maximum(walk);
+  EXPECT_FALSE(maximum.takes_samples(camera));
+  EXPECT_EQ(maximum.picture(camera).volume.pixels, exact_picture(walk, camera).volume.pixels);
+}
+
+TEST(SampledMaximum, IsExactWhereFloatsDoNotResolveWhatIsSeen) {
+  const Volume volume = random_volume<float>({9, 9, 9}, -1000.0, 3000.0);
+  const Camera camera = camera_of(volume, {.size = {40, 40}, .azimuth_rad = 0.4});
+  for (const EmissionMap& map :
+       {EmissionMap::window(0.0, 1e-35), EmissionMap::window(0.0, 1e-3),
+        EmissionMap::piecewise_linear({{-1e9, 0.0}, {100.0, 0.0}, {101.0, 1.0}}),
+        EmissionMap::piecewise_linear({{-1e20, 0.0}, {0.0, 0.1}, {100.0, 0.5}, {1e20, 1.0}})}) {
+    const ExactWalk walk(volume, map);
+    const SampledMaximum maximum(walk);
+    EXPECT_FALSE(maximum.takes_samples(camera));
+    EXPECT_EQ(maximum.picture(camera).volume.pixels, exact_picture(walk, camera).volume.pixels);
+  }
+  const ExactWalk walk(volume, EmissionMap::window(0.0, 3000.0));
+  const SampledMaximum maximum(walk);
+  EXPECT_TRUE(maximum.takes_samples(camera));
+  const DepthCue beyond{1e39, 0.0, 1.0};
+  EXPECT_FALSE(maximum.takes_samples(camera, beyond));
+  EXPECT_EQ(maximum.picture(camera, {.cue = beyond}).volume.pixels,
+            exact_picture(walk, camera, {.cue = beyond}).volume.pixels);
+}
+
+TEST(SampledMaximum, RoundingStaysBelowWhatIsSaid) {
+  // The narrowest window that samples are taken for.
+  const Volume volume = random_volume<std::uint8_t>({200, 9, 9}, 0, 255);
+  const ExactWalk walk(volume, EmissionMap::window(250.0, 255.0));
+  const SampledMaximum maximum(walk);
+  for (const CameraOptions& options : cameras()) {
+    const Camera camera = camera_of(volume, options);
+    ASSERT_TRUE(maximum.takes_samples(camera));
+    const Image exact = exact_picture(walk, camera).volume;
+    const Image image = maximum.picture(camera, {.per_cell = 4}).volume;
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+      ASSERT_LE(image.pixels[i], exact.pixels[i] + 0.01F);
+    }
+  }
 }
 
 TEST(SampledMaximum, RefusesWhatItDoesNotDraw) {
