@@ -22,6 +22,7 @@
 #include "reference/exact_picture.h"
 #include "reference/tile_lists.h"
 #include "reference/tile_rays.h"
+#include "reference/visible_lines.h"
 #include "reference/walk_field.h"
 
 namespace nacre {
@@ -128,21 +129,11 @@ float start_of(const Scene& scene, const PixelLine& pixel) {
 
 /// Sets up the rays of a tile. Tools are put into the picture on the way.
 void start_rays(const Frame& frame, const PixelRange& tile, Workplace& work, Picture& picture) {
-  PixelLine line;
-  for (int y = tile.first.y; y <= tile.last.y; ++y) {
-    for (int x = tile.first.x; x <= tile.last.x; ++x) {
-      double t_tool = std::numeric_limits<double>::infinity();
-      if (picture.tools) {
-        const Ray ray = picture_ray(frame.camera, x + 0.5, y + 0.5);
-        t_tool = draw_tool_pixel(*frame.options.tools, frame.camera, frame.options.cue, ray, x, y,
-                                 *picture.tools);
-      }
-      if (!frame.lines.find(x, y, line)) continue;
-      line.visible.t_exit = std::min(line.visible.t_exit, t_tool - line.t_shift_mm);
-      if (!(line.visible.t_enter < line.visible.t_exit)) continue;
-      work.rays.put(x - tile.first.x, y - tile.first.y, line, start_of(frame.scene, line));
-    }
-  }
+  for_visible_lines(frame.lines, frame.camera, frame.options.cue, frame.options.tools, tile,
+                    picture, [&](int x, int y, const PixelLine& line) {
+                      work.rays.put(x - tile.first.x, y - tile.first.y, line,
+                                    start_of(frame.scene, line));
+                    });
 }
 
 BlockRectangle blocks_of(const PixelRange& pixels, const PixelRange& tile) {

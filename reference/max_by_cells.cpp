@@ -18,6 +18,7 @@
 #include "reference/cell_rectangles.h"
 #include "reference/tile_lists.h"
 #include "reference/tile_rays.h"
+#include "reference/visible_lines.h"
 
 namespace nacre {
 namespace {
@@ -195,23 +196,15 @@ template <class Maximum>
 void start_rays(const Frame& frame, const PixelRange& tile, Workplace<Maximum>& work,
                 Picture& picture) {
   work.rays.clear();
-  PixelLine line;
-  for (int y = tile.first.y; y <= tile.last.y; ++y) {
-    for (int x = tile.first.x; x <= tile.last.x; ++x) {
-      double t_tool = std::numeric_limits<double>::infinity();
-      if (picture.tools) {
-        const Ray ray = picture_ray(frame.camera, x + 0.5, y + 0.5);
-        t_tool = draw_tool_pixel(*frame.tools, frame.camera, frame.cue, ray, x, y, *picture.tools);
-      }
-      if (work.items.empty() && !frame.lines.shows_always()) continue;
-      if (!frame.lines.find(x, y, line)) continue;
-      line.visible.t_exit = std::min(line.visible.t_exit, t_tool - line.t_shift_mm);
-      if (!(line.visible.t_enter < line.visible.t_exit)) continue;
-      const glm::ivec2 place = glm::ivec2(x, y) - tile.first;
-      const std::size_t ray = TileRays::index(place.x, place.y);
-      work.rays.put(place.x, place.y, line, work.maximum.start(ray, line, work.rays));
-    }
-  }
+  const bool dark = work.items.empty() && !frame.lines.shows_always();
+  for_visible_lines(frame.lines, frame.camera, frame.cue, frame.tools, tile, picture,
+                    [&](int x, int y, const PixelLine& line) {
+                      if (dark) return;
+                      const glm::ivec2 place = glm::ivec2(x, y) - tile.first;
+                      const std::size_t ray = TileRays::index(place.x, place.y);
+                      work.rays.put(place.x, place.y, line,
+                                    work.maximum.start(ray, line, work.rays));
+                    });
 }
 
 /// @param rectangle  the brick's, within the tile
