@@ -6,6 +6,7 @@
 #include <sys/socket.h>
 
 #include <charconv>
+#include <chrono>
 #include <csignal>
 #include <ctime>
 #include <mutex>
@@ -40,8 +41,13 @@ sigset_t ending_signals() {
 void stop_on_signal(const std::stop_token& done, httplib::Server& server) {
   const sigset_t signals = ending_signals();
   const timespec wait{0, 200'000'000};
+  bool told = false;
   while (!done.stop_requested()) {
-    if (sigtimedwait(&signals, nullptr, &wait) > 0) return server.stop();
+    told = told || sigtimedwait(&signals, nullptr, &wait) > 0;
+    if (!told) continue;
+    // One that does not listen yet would not be stopped, and listen for ever.
+    if (server.is_running()) return server.stop();
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
 }
 

@@ -244,6 +244,17 @@ TEST_F(PageServer, EndsSoonWhenItIsTold) {
   }
 }
 
+TEST_F(PageServer, EndsWhenItIsToldBeforeItListens) {
+  hold_signals();
+  for (int i = 0; i < 20; ++i) {
+    std::future<void> running = std::async(std::launch::async, [&] {
+      serve_page(served_, 0, [](const std::string&) { kill(getpid(), SIGTERM); });
+    });
+    ASSERT_EQ(running.wait_for(std::chrono::seconds(30)), std::future_status::ready);
+    running.get();
+  }
+}
+
 TEST_F(PageServer, APortThatIsTakenIsSaidToBe) {
   start();
   expect_error(ErrorCode::Unsupported, "port " + std::to_string(port_) + ": found it taken",
