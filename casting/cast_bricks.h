@@ -19,6 +19,10 @@ struct CastScale {
   float operator()(double field) const { return static_cast<float>((field - lo) * inverse); }
 };
 
+inline CastScale cast_scale(const EmissionMap& map) {
+  return {map.lo(), 1.0 / (map.hi() - map.lo())};
+}
+
 /// The samples of a brick, x fastest.
 using BrickValues = std::array<float, CastBrick::kAll>;
 

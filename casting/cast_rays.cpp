@@ -59,6 +59,24 @@ std::optional<CastAxes> steep_axes(const WalkField& field, const Camera& camera,
   return axes_across(steepest);
 }
 
+std::optional<std::vector<CastAxes>> axes_of_tiles(const WalkField& field, const Camera& camera) {
+  std::vector<CastAxes> axes;
+  glm::ivec2 first(0);
+  for (first.y = 0; first.y < camera.size.y; first.y += BlockRays::kTile) {
+    for (first.x = 0; first.x < camera.size.x; first.x += BlockRays::kTile) {
+      if (!camera.perspective && !axes.empty()) {
+        axes.push_back(axes.front());
+        continue;
+      }
+      const PixelRange pixels{first, glm::min(first + BlockRays::kTile, camera.size) - 1};
+      const auto found = steep_axes(field, camera, pixels);
+      if (!found) return std::nullopt;
+      axes.push_back(*found);
+    }
+  }
+  return axes;
+}
+
 void CastRays::clear(const CastAxes& axes) {
   axes_ = axes;
   best_.fill(kInfinity);
@@ -84,24 +102,23 @@ void CastRays::put(int x, int y, const PixelLine& ray, float start) {
   best_[i] = start;
 }
 
-void CastRays::put_parallel(const CellLine& corner, const glm::dvec3& right, const glm::dvec3& down,
-                            const glm::ivec2& size) {
-  const PlaneLine first = across_planes(corner, axes_);
+void CastRays::put_parallel(const ParallelLines& lines, const PixelRange& tile) {
+  const PlaneLine corner = across_planes(lines.corner, axes_);
   const auto step = [&](const glm::dvec3& way) {
-    return glm::dvec2(way[axes_.u] - way[axes_.plane] * first.du,
-                      way[axes_.v] - way[axes_.plane] * first.dv);
+    return glm::dvec2(way[axes_.u] - way[axes_.plane] * corner.du,
+                      way[axes_.v] - way[axes_.plane] * corner.dv);
   };
-  const glm::dvec2 to_right = step(right);
-  const glm::dvec2 to_bottom = step(down);
-  du_.fill(static_cast<float>(first.du));
-  dv_.fill(static_cast<float>(first.dv));
-  for (int y = 0; y < size.y; ++y) {
-    const double u = first.u + (y + 0.5) * to_bottom.x;
-    const double v = first.v + (y + 0.5) * to_bottom.y;
-    for (int x = 0; x < size.x; ++x) {
-      const std::size_t i = index(x, y);
-      u_[i] = static_cast<float>(u + (x + 0.5) * to_right.x);
-      v_[i] = static_cast<float>(v + (x + 0.5) * to_right.y);
+  const glm::dvec2 right = step(lines.right);
+  const glm::dvec2 down = step(lines.down);
+  du_.fill(static_cast<float>(corner.du));
+  dv_.fill(static_cast<float>(corner.dv));
+  for (int y = tile.first.y; y <= tile.last.y; ++y) {
+    const double u = corner.u + (y + 0.5) * down.x;
+    const double v = corner.v + (y + 0.5) * down.y;
+    for (int x = tile.first.x; x <= tile.last.x; ++x) {
+      const std::size_t i = index(x - tile.first.x, y - tile.first.y);
+      u_[i] = static_cast<float>(u + (x + 0.5) * right.x);
+      v_[i] = static_cast<float>(v + (x + 0.5) * right.y);
       best_[i] = 0.0F;
     }
   }

@@ -5,6 +5,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
+#include <vector>
 
 #include "casting/sample_kernel.h"
 #include "core/camera.h"
@@ -26,6 +27,9 @@ struct CastAxes {
 std::optional<CastAxes> steep_axes(const WalkField& field, const Camera& camera,
                                    const PixelRange& pixels);
 
+/// Those of each tile of a picture, row by row; nothing if the rays of one spread too far.
+std::optional<std::vector<CastAxes>> axes_of_tiles(const WalkField& field, const Camera& camera);
+
 /// The rays of a tile of pixels, in arrays for the kernel.
 class CastRays {
  public:
@@ -37,13 +41,9 @@ class CastRays {
   /// @param start  the least that it shows
   void put(int x, int y, const PixelLine& ray, float start);
 
-  /// The rays of an orthographic camera, cut off nowhere, that show nothing to begin with.
-  ///
-  /// @param corner       the line of the tile's upper left corner
-  /// @param right, down  to the next pixel
-  /// @param size         of the tile, pixels
-  void put_parallel(const CellLine& corner, const glm::dvec3& right, const glm::dvec3& down,
-                    const glm::ivec2& size);
+  /// Rays that are cut off nowhere and show nothing to begin with.
+  /// @param tile  its pixels
+  void put_parallel(const ParallelLines& lines, const PixelRange& tile);
 
   /// The arrays, as put so far.
   /// @param planes  the last plane of the volume: rays cut off beyond it are not cut off

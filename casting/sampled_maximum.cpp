@@ -15,6 +15,7 @@
 
 #include "casting/cast_bricks.h"
 #include "casting/cast_rays.h"
+#include "casting/float_rounding.h"
 #include "core/error.h"
 #include "reference/bright_bricks.h"
 #include "reference/cell_cue.h"
@@ -93,29 +94,6 @@ void list_items(const Frame& frame, std::size_t tile, Workplace& work) {
   if (!frame.scene.cued) return;  // in order as they are
   std::stable_sort(work.items.begin(), work.items.end(),
                    [](const auto& a, const auto& b) { return a.upper > b.upper; });
-}
-
-/// Whether no ray of the picture is cut off, and none shows anything where nothing is bright.
-bool has_plain_rays(const Frame& frame) {
-  const RayInterval visible =
-      visible_interval(frame.camera, picture_ray(frame.camera, 0.0, 0.0), frame.options.slab);
-  return !frame.camera.perspective && !frame.lines.shows_always() &&
-         frame.options.tools == nullptr && std::isinf(visible.t_begin_mm) &&
-         std::isinf(visible.t_end_mm);
-}
-
-void start_plain_rays(const Frame& frame, const PixelRange& tile, CastRays& rays) {
-  const auto line = [&](const glm::ivec2& pixel) {
-    return frame.scene.field.frame.line(picture_ray(frame.camera, pixel.x, pixel.y));
-  };
-  const CellLine corner = line({0, 0});
-  const glm::dvec3 right = (line({frame.camera.size.x, 0}).origin - corner.origin) /
-                           static_cast<double>(frame.camera.size.x);
-  const glm::dvec3 down = (line({0, frame.camera.size.y}).origin - corner.origin) /
-                          static_cast<double>(frame.camera.size.y);
-  const glm::dvec3 first = corner.origin + static_cast<double>(tile.first.x) * right +
-                           static_cast<double>(tile.first.y) * down;
-  rays.put_parallel({first, corner.direction}, right, down, tile.last - tile.first + 1);
 }
 
 /// What a ray shows of a volume that is nowhere darker than the map's first knot.
@@ -205,14 +183,15 @@ void draw_bricks(const Frame& frame, const PixelRange& tile, Workplace& work) {
   }
 }
 
-void draw_tile(const Frame& frame, std::size_t tile, bool plain, Workplace& work,
-               Picture& picture) {
+/// @param uncut  all rays, where nothing cuts them off
+void draw_tile(const Frame& frame, std::size_t tile, const std::optional<ParallelLines>& uncut,
+               Workplace& work, Picture& picture) {
   const PixelRange pixels = frame.lists.pixels(tile, kTile, frame.camera.size);
   list_items(frame, tile, work);
   if (work.items.empty() && !frame.lines.shows_always() && !picture.tools) return;
   work.rays.clear(frame.axes[tile]);
-  if (plain) {
-    start_plain_rays(frame, pixels, work.rays);
+  if (uncut) {
+    work.rays.put_parallel(*uncut, pixels);
   } else {
     start_rays(frame, pixels, work, picture);
   }
@@ -227,7 +206,7 @@ void draw_tile(const Frame& frame, std::size_t tile, bool plain, Workplace& work
 
 void draw_tiles(const Frame& frame, Picture& picture, const ProgressCallback& progress) {
   const std::size_t tiles = frame.axes.size();
-  const bool plain = has_plain_rays(frame);
+  const std::optional<ParallelLines> uncut = picture.tools ? std::nullopt : frame.lines.uncut();
   ProgressMeter meter(progress, "rays", tiles);
   tbb::enumerable_thread_specific<Workplace> workplaces;
   // Each tile is drawn by one thread alone, so the number of threads cannot show.
@@ -235,68 +214,11 @@ void draw_tiles(const Frame& frame, Picture& picture, const ProgressCallback& pr
       tbb::blocked_range<std::size_t>(0, tiles, 1),
       [&](const auto& range) {
         for (std::size_t tile = range.begin(); tile != range.end(); ++tile) {
-          draw_tile(frame, tile, plain, workplaces.local(), picture);
+          draw_tile(frame, tile, uncut, workplaces.local(), picture);
           meter.advance();
         }
       },
       tbb::simple_partitioner());
-}
-
-/// Of each tile, row by row; nothing if the rays of one have no axis in common.
-std::optional<std::vector<CastAxes>> axes_of_tiles(const WalkField& field, const Camera& camera) {
-  std::vector<CastAxes> axes;
-  glm::ivec2 first(0);
-  for (first.y = 0; first.y < camera.size.y; first.y += kTile) {
-    for (first.x = 0; first.x < camera.size.x; first.x += kTile) {
-      if (!camera.perspective && !axes.empty()) {
-        axes.push_back(axes.front());
-        continue;
-      }
-      const PixelRange pixels{first, glm::min(first + kTile, camera.size) - 1};
-      const auto found = steep_axes(field, camera, pixels);
-      if (!found) return std::nullopt;
-      axes.push_back(*found);
-    }
-  }
-  return axes;
-}
-
-CastScale scale_of(const EmissionMap& map) { return {map.lo(), 1.0 / (map.hi() - map.lo())}; }
-
-/// The most emission that rounding of places and samples to floats may come to: steps of places of
-/// some 4 times the cells along the volume, times the steepest slopes of samples and map. Infinity
-/// where no float holds a sample.
-double rounding_of(const WalkField& field) {
-  constexpr double kStep = 0x1p-24;
-  constexpr double kMost = 1e30;
-  const EmissionMap& map = field.emission_of_field;
-  const CastScale scale = scale_of(map);
-  const double width = map.hi() - map.lo();
-  double most = 1.0;
-  for (const double sample : field.bricks.least) {
-    most = std::max(most, std::abs((sample - scale.lo) * scale.inverse));
-  }
-  for (const double sample : field.bricks.greatest) {
-    most = std::max(most, std::abs((sample - scale.lo) * scale.inverse));
-  }
-  double steepest = 0.0;
-  const auto knots = map.knots();
-  for (std::size_t i = 1; i < knots.size(); ++i) {
-    const double rise = knots[i].emission - knots[i - 1].emission;
-    steepest = std::max(steepest, rise / ((knots[i].value - knots[i - 1].value) / width));
-  }
-  const auto cells = static_cast<double>(std::max({field.cells.x, field.cells.y, field.cells.z}));
-  const double rounding = kStep * (4.0 * cells + 8.0) * most * steepest;
-  return most < kMost && std::isfinite(width) && std::isfinite(scale.inverse)
-             ? rounding
-             : std::numeric_limits<double>::infinity();
-}
-
-/// Whether floats hold a cue anywhere in the volume.
-bool fits_floats(const WalkField& field, const CellCue& cue) {
-  constexpr double kMost = 1e30;
-  return std::abs(cue.at_origin()) + glm::dot(glm::abs(cue.rise()), glm::dvec3(field.cells)) <
-         kMost;
 }
 
 void check(const SampledMaximumOptions& options) {
@@ -322,9 +244,9 @@ void check_pieces(const EmissionMap& map) {
 SampledMaximum::SampledMaximum(const ExactWalk& walk) : walk_(&walk) {
   constexpr double kMostRounding = 0.01;
   const WalkField& field = walk.field();
-  if (!(rounding_of(field) <= kMostRounding)) return;
+  if (!(rounding_to_floats(field) <= kMostRounding)) return;
   bricks_ = std::make_unique<const CastBricks>(field, walk.bright_bricks(),
-                                               scale_of(field.emission_of_field));
+                                               cast_scale(field.emission_of_field));
 }
 
 SampledMaximum::~SampledMaximum() = default;
@@ -332,21 +254,23 @@ SampledMaximum::SampledMaximum(SampledMaximum&&) noexcept = default;
 
 bool SampledMaximum::takes_samples(const Camera& camera, const DepthCue& cue) const {
   const WalkField& field = walk_->field();
-  return bricks_ && axes_of_tiles(field, camera) &&
-         fits_floats(field, CellCue(field, cue_field(cue, camera)));
+  return bricks_ && floats_hold(field, CellCue(field, cue_field(cue, camera))) &&
+         axes_of_tiles(field, camera);
 }
 
 Picture SampledMaximum::picture(const Camera& camera, const SampledMaximumOptions& options,
                                 const ProgressCallback& progress) const {
   check(options);
-  if (!takes_samples(camera, options.cue)) {
+  const WalkField& field = walk_->field();
+  const CueField cue = cue_field(options.cue, camera);
+  const CellCue cell_cue(field, cue);
+  auto axes = bricks_ && floats_hold(field, cell_cue) ? axes_of_tiles(field, camera) : std::nullopt;
+  if (!axes) {
     return exact_picture(*walk_, camera,
                          {.cue = options.cue, .slab = options.slab, .tools = options.tools},
                          progress);
   }
-  const WalkField& field = walk_->field();
   const EmissionMap& map = field.emission_of_field;
-  const CueField cue = cue_field(options.cue, camera);
   const bool cued = !is_flat(cue);
   if (cued) check_pieces(map);
   const BrightBricks& bright = walk_->bright_bricks();
@@ -360,8 +284,8 @@ Picture SampledMaximum::picture(const Camera& camera, const SampledMaximumOption
                     sample_kernel_for(options.instructions),
                     cue,
                     cued,
-                    CellCue(field, cue),
-                    scale_of(map),
+                    cell_cue,
+                    cast_scale(map),
                     map.hi() - map.lo(),
                     static_cast<float>(map.knots().front().emission),
                     static_cast<float>(map.knots().back().emission),
@@ -372,7 +296,7 @@ Picture SampledMaximum::picture(const Camera& camera, const SampledMaximumOption
                     PixelLines(field, camera, options.slab),
                     std::move(of_brick),
                     std::move(lists),
-                    *axes_of_tiles(field, camera)};
+                    std::move(*axes)};
   Picture picture = make_picture(camera, options.tools);
   draw_tiles(frame, picture, progress);
   drop_unseen_tools(picture);

@@ -24,12 +24,12 @@ PixelLines::PixelLines(const WalkField& field, const Camera& camera, const Slab&
   const Ray corner = picture_ray(camera, 0.0, 0.0);
   const RayInterval visible = visible_interval(camera, corner, slab);
   const double pixel_mm = 2.0 * camera.half_extent / std::min(camera.size.x, camera.size.y);
-  first_ = field.frame.line(corner);
+  parallel_.corner = field.frame.line(corner);
   visible_ = {visible.t_begin_mm, visible.t_end_mm};
-  right_ = field.frame.cell_from_world * (pixel_mm * camera.right);
-  down_ = field.frame.cell_from_world * (-pixel_mm * camera.up);
+  parallel_.right = field.frame.cell_from_world * (pixel_mm * camera.right);
+  parallel_.down = field.frame.cell_from_world * (-pixel_mm * camera.up);
   direction_mm_ = camera.forward;
-  const glm::dvec3 steepness = glm::abs(first_.direction);
+  const glm::dvec3 steepness = glm::abs(parallel_.corner.direction);
   const double along = slope_along_planes(steepness);
   is_plain_ = !shows_always_;
   for (int axis = 0; axis < 3; ++axis) {

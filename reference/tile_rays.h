@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <vector>
 
 #include "core/camera.h"
@@ -18,6 +20,13 @@ struct PixelLine {
   LineInterval visible;
   double t_shift_mm;        ///< of the camera's ray (`picture_ray`), at the line's t = 0
   glm::dvec3 direction_mm;  ///< of that ray, of unit length
+};
+
+/// Parallel rays: pixel (x, y)'s is the corner's, moved (x + 1/2) `right` and (y + 1/2) `down`.
+struct ParallelLines {
+  CellLine corner;  ///< of the picture's upper left corner
+  glm::dvec3 right{0.0};
+  glm::dvec3 down{0.0};
 };
 
 /// The rays of a camera's pixels in cell coordinates, each counted from near the volume.
@@ -47,14 +56,22 @@ class PixelLines {
   /// `find` gives the part inside the box.
   bool shows_always() const { return shows_always_; }
 
+  /// All rays at once, if they are parallel, no slab cuts them off, and nothing shows always.
+  std::optional<ParallelLines> uncut() const {
+    const bool cut = std::isfinite(visible_.t_enter) || std::isfinite(visible_.t_exit);
+    if (camera_.perspective || cut || shows_always_) return std::nullopt;
+    return parallel_;
+  }
+
  private:
   bool find_any(int x, int y, PixelLine& ray) const;
   bool find_entered(int x, int y, PixelLine& ray) const;
 
   /// Orthographic.
   void put_line(int x, int y, CellLine& line) const {
-    line.origin = first_.origin + (x + 0.5) * right_ + (y + 0.5) * down_;
-    line.direction = first_.direction;
+    line.origin =
+        parallel_.corner.origin + (x + 0.5) * parallel_.right + (y + 0.5) * parallel_.down;
+    line.direction = parallel_.corner.direction;
   }
 
   const WalkField& field_;
@@ -67,11 +84,9 @@ class PixelLines {
   glm::dvec3 least_{0.0};
   glm::dvec3 most_{0.0};
   glm::dvec3 direction_mm_{0.0};
-  /// Orthographic: of the picture's upper left corner, and to the next pixel.
-  CellLine first_;
+  /// Orthographic.
+  ParallelLines parallel_;
   LineInterval visible_{0.0, 0.0};
-  glm::dvec3 right_{0.0};
-  glm::dvec3 down_{0.0};
 };
 
 /// The rays of a tile of pixels, in arrays for the kernel.
