@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "bench/computing_time.h"
 #include "bench/scans.h"
 #include "core/volume_geometry.h"
 #include "datasets/phantom.h"
@@ -190,14 +191,6 @@ class CellsAndRays {
   }
 
  private:
-  /// Of all threads.
-  template <class Draw>
-  static double computing_ms(const Draw& draw) {
-    const std::clock_t begin = std::clock();
-    benchmark::DoNotOptimize(draw());
-    return 1e3 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
-  }
-
   Volume volume_;
   ExactWalk walk_;
   double elevation_rad_;

@@ -2,45 +2,20 @@
 #include <fmt/core.h>
 
 #include <array>
-#include <cmath>
-#include <ctime>
 #include <numbers>
 #include <utility>
 #include <vector>
 
+#include "bench/computing_time.h"
 #include "bench/scans.h"
 #include "casting/sampled_maximum.h"
 #include "core/volume_geometry.h"
 #include "reference/exact_picture.h"
+#include "report/picture_error.h"
+#include "report/picture_series.h"
 
 namespace nacre {
 namespace {
-
-/// PSNR over the pixels of some pictures, all and those that are lit.
-struct Errors {
-  double squares = 0.0;
-  double pixels = 0.0;
-  double lit = 0.0;
-
-  void add(const Image& picture, const Image& truth) {
-    for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
-      const double error =
-          static_cast<double>(picture.pixels[i]) - static_cast<double>(truth.pixels[i]);
-      squares += error * error;
-      pixels += 1.0;
-      lit += picture.pixels[i] > 0.0F || truth.pixels[i] > 0.0F ? 1.0 : 0.0;
-    }
-  }
-  double psnr(double count) const { return -10.0 * std::log10(squares / count); }
-};
-
-/// Milliseconds of computing of all threads.
-template <class Draw>
-double computing_ms(const Draw& draw) {
-  const std::clock_t begin = std::clock();
-  benchmark::DoNotOptimize(draw());
-  return 1e3 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
-}
 
 /// Exact and sampled maxima in turn, 36 views about the axis.
 void exact_and_sampled(benchmark::State& state, const Scan& scan, int per_cell) {
@@ -52,7 +27,8 @@ void exact_and_sampled(benchmark::State& state, const Scan& scan, int per_cell) 
   double exact_ms = 0.0;
   double sampled_ms = 0.0;
   int frame = 0;
-  Errors errors;
+  std::vector<Image> pictures;
+  std::vector<Image> truths;
   for (auto _ : state) {
     const Camera camera = make_camera(
         {.size = {512, 512}, .azimuth_rad = 2.0 * std::numbers::pi * (frame++ % kFrames) / kFrames},
@@ -67,13 +43,15 @@ void exact_and_sampled(benchmark::State& state, const Scan& scan, int per_cell) 
       picture = sampled.picture(camera, {.per_cell = per_cell}).volume;
       return picture.pixels.data();
     });
-    errors.add(picture, truth);
+    pictures.push_back(std::move(picture));
+    truths.push_back(std::move(truth));
   }
   state.counters["exact_ms"] = exact_ms / frame;
   state.counters["sampled_ms"] = sampled_ms / frame;
   state.counters["ratio"] = exact_ms / sampled_ms;
-  state.counters["lit_db"] = errors.psnr(errors.lit);
-  state.counters["all_db"] = errors.psnr(errors.pixels);
+  const PictureComparison error = compare_pictures(stacked(pictures), stacked(truths), 1.0);
+  state.counters["lit_db"] = error.lit.psnr_db;
+  state.counters["all_db"] = error.all.psnr_db;
 }
 
 /// Sampled maxima alone, by the kernel for an instruction set.

@@ -14,6 +14,7 @@
 #include "core/tool.h"
 #include "reference/exact_picture.h"
 #include "reference/walk_field.h"
+#include "report/picture_error.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/instruction_sets.h"
 #include "tests/support/test_volumes.h"
@@ -209,13 +210,8 @@ TEST(SampledMaximum, StopsAtTools) {
   }
 }
 
-double rms_difference(const Image& a, const Image& b) {
-  double squares = 0.0;
-  for (std::size_t i = 0; i < a.pixels.size(); ++i) {
-    const double difference = static_cast<double>(a.pixels[i]) - static_cast<double>(b.pixels[i]);
-    squares += difference * difference;
-  }
-  return std::sqrt(squares / static_cast<double>(a.pixels.size()));
+double rms_difference(const Image& picture, const Image& truth) {
+  return compare_pictures(picture, truth, 1.0).all.rmse;
 }
 
 TEST(SampledMaximum, NeverExceedsTheExactAndNearsIt) {

@@ -1,13 +1,13 @@
 // Sampled maxima of real scans, against the exact ones.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <vector>
 
 #include "casting/sampled_maximum.h"
 #include "core/volume_geometry.h"
 #include "io/volume_reader.h"
 #include "reference/exact_picture.h"
+#include "report/picture_error.h"
 #include "tests/support/test_data.h"
 
 namespace nacre {
@@ -21,7 +21,7 @@ constexpr int kSide = 64;  // of which single pixels count for more
 constexpr double kGain = 2.0;
 #endif
 
-/// PSNR over the pixels that either picture lights, of 1, 2, ... samples a voxel.
+/// PSNR over lit pixels, of 1, 2, ... samples a voxel.
 std::vector<double> lit_psnr(const std::filesystem::path& file, const EmissionMap& map,
                              std::initializer_list<int> samples) {
   const Volume volume = read_volume(file).volume;
@@ -34,17 +34,12 @@ std::vector<double> lit_psnr(const std::filesystem::path& file, const EmissionMa
   std::vector<double> result;
   for (const int per_cell : samples) {
     const Image image = maximum.picture(camera, {.per_cell = per_cell}).volume;
-    double squares = 0.0;
-    double lit = 0.0;
     for (std::size_t i = 0; i < image.pixels.size(); ++i) {
       EXPECT_LE(image.pixels[i], exact.pixels[i] + 1e-4F);
-      const double error =
-          static_cast<double>(image.pixels[i]) - static_cast<double>(exact.pixels[i]);
-      squares += error * error;
-      lit += image.pixels[i] > 0.0F || exact.pixels[i] > 0.0F ? 1.0 : 0.0;
     }
-    EXPECT_GT(lit, 100.0);
-    result.push_back(-10.0 * std::log10(squares / lit));
+    const PictureError lit = compare_pictures(image, exact, 1.0).lit;
+    EXPECT_GT(lit.pixels, 100U);
+    result.push_back(lit.psnr_db);
   }
   return result;
 }
