@@ -58,9 +58,9 @@ bool is_for_loopback(const httplib::Request& request) {
   return name == kHost || name == "localhost";
 }
 
-void set_content(httplib::Response& response, const std::vector<std::byte>& bytes) {
-  response.set_content(reinterpret_cast<const char*>(bytes.data()), bytes.size(),
-                       "model/gltf-binary");
+void set_content(httplib::Response& response, const std::vector<std::byte>& bytes,
+                 const char* type = "model/gltf-binary") {
+  response.set_content(reinterpret_cast<const char*>(bytes.data()), bytes.size(), type);
 }
 
 /// A level's emission as the request gives it; 0 if it is none.
@@ -97,6 +97,17 @@ void answer_level(const ServedPage& served, LevelLocks& locks, const httplib::Re
   }
 }
 
+void answer_picture(const ServedPage& served, const httplib::Request& request,
+                    httplib::Response& response) {
+  try {
+    set_content(response, served.picture({request.params.begin(), request.params.end()}),
+                "application/octet-stream");
+  } catch (const std::exception& error) {
+    response.status = 400;
+    response.set_content(error.what(), "text/plain");
+  }
+}
+
 void add_answers(httplib::Server& server, const ServedPage& served, LevelLocks& locks) {
   using Request = httplib::Request;
   using Response = httplib::Response;
@@ -112,6 +123,11 @@ void add_answers(httplib::Server& server, const ServedPage& served, LevelLocks& 
   });
   server.Get("/set.glb",
              [&served](const Request&, Response& response) { set_content(response, served.set); });
+  if (served.picture) {
+    server.Get("/picture", [&served](const Request& request, Response& response) {
+      answer_picture(served, request, response);
+    });
+  }
   if (!served.level) return;
   server.Post("/level", [&](const Request& request, Response& response) {
     answer_level(served, locks, request, response);
@@ -132,6 +148,7 @@ void serve_page(const ServedPage& served, int port,
   LevelLocks locks;
   add_answers(server, served, locks);
   server.set_socket_options(set_socket_options);
+  server.set_tcp_nodelay(true);  // a picture waits for no more to send
   server.set_keep_alive_timeout(kIdleSeconds);
   server.set_read_timeout(kIdleSeconds);
   const int bound = port == 0                          ? server.bind_to_any_port(kHost)

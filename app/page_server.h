@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace nacre {
@@ -19,13 +20,19 @@ struct ServedLevel {
   bool is_draft = false;  ///< whether asking for another than a draft gives another shell
 };
 
-/// What a server gives away, and nothing else: the page, the set it fetches, and where there is a
-/// volume the shell of any level.
+/// The flags of `nacre render`, names and values, for a picture that the page shows.
+using PictureRequest = std::vector<std::pair<std::string, std::string>>;
+
+/// What a server gives away, and nothing else: the page, the set it fetches, pictures of it, and
+/// where there is a volume the shell of any level.
 struct ServedPage {
   std::string html;
   std::vector<std::byte> set;
   /// Empty where there is no volume. A draft may be asked for while another shell is being made.
   std::function<ServedLevel(const LevelRequest& request)> level = {};
+  /// A picture, as the page takes it; may throw an `Error`, which is what the page is told. Empty where
+  /// none are drawn. May be called from several threads at once.
+  std::function<std::vector<std::byte>(const PictureRequest& request)> picture = {};
 };
 
 /// Serves on the loopback interface until this process is told to end by SIGINT or SIGTERM.

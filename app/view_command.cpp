@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "app/page_server.h"
+#include "app/served_pictures.h"
 #include "app/shell_building.h"
 #include "app/thread_limit.h"
 #include "app/view_page.h"
@@ -113,6 +114,8 @@ void write_page(const std::string& output, const std::vector<std::byte>& set, Re
 
 void serve(const ViewFlags& flags, ServedPage served, Reporter& reporter) {
   served.html = page_that_fetches(static_cast<bool>(served.level));
+  ServedPictures pictures(served.set);
+  served.picture = [&](const PictureRequest& request) { return pictures.draw(request); };
   serve_page(served, flags.port, [&](const std::string& address) {
     reporter.say(fmt::format("{} (Ctrl+C ends it)", address));
     std::fflush(stdout);

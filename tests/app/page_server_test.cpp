@@ -172,6 +172,30 @@ TEST_F(PageServer, ListensOnTheLoopbackInterfaceAlone) {
   EXPECT_EQ(found, 1u);
 }
 
+TEST_F(PageServer, DrawsPicturesAsTheyAreAskedFor) {
+  served_.picture = [](const PictureRequest& request) {
+    if (request.empty()) throw Error(ErrorCode::BadArgument, "picture: found no flags");
+    std::vector<std::byte> text;
+    for (const auto& [name, value] : request) {
+      for (const char c : name + "=" + value + ";") text.push_back(static_cast<std::byte>(c));
+    }
+    return text;
+  };
+  start();
+  const Answer drawn = ask("GET /picture?azimuth=-30&slab=-5%2C5");
+  EXPECT_EQ(drawn.status, 200);
+  EXPECT_EQ(drawn.body, "azimuth=-30;slab=-5,5;");
+  const Answer refused = ask("GET /picture");
+  EXPECT_EQ(refused.status, 400);
+  EXPECT_EQ(refused.body, "picture: found no flags");
+  EXPECT_EQ(ask("GET /picture?azimuth=1", "elsewhere.example").status, 403);
+}
+
+TEST_F(PageServer, DrawsNoPicturesUnlessItCan) {
+  start();
+  EXPECT_EQ(ask("GET /picture?azimuth=1").status, 404);
+}
+
 TEST_F(PageServer, MakesLevelsAsTheyAreAskedFor) {
   std::vector<LevelRequest> asked;
   served_.level = [&](const LevelRequest& request) {

@@ -6,7 +6,7 @@ import { existsSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { request } from "node:http";
 import { after, test } from "node:test";
 import { setTimeout } from "node:timers/promises";
-import { folder, inFolder, launch, look, makeAngiogram, nacre, open, psnr, savePicture, settled } from "./support.mjs";
+import { folder, inFolder, launch, look, makeAngiogram, nacre, open, psnr, savePicture, settled, writeTool } from "./support.mjs";
 
 const browser = await launch();
 makeAngiogram();
@@ -57,7 +57,7 @@ const statusOf = (address, path, host, method = "GET") => new Promise((resolve, 
 
 test("a set is served, nothing else is, and SIGINT ends it", async () => {
   const { server, address } = await serve("angiogram.glb");
-  const page = await open(browser, address);
+  const page = await open(browser, `${address}?pictures=page`);
   nacre("render", "angiogram.glb", "--layers", "flat", "--size", "256x256", "-o", "nacre.png", "-q");
   assert.ok(await psnr(page, await savePicture(page, "page.png", 256, 256), inFolder("nacre.png")) >= 40);
   assert.equal(await page.locator("#live").isVisible(), false);
@@ -69,6 +69,77 @@ test("a set is served, nothing else is, and SIGINT ends it", async () => {
   assert.equal(await statusOf(address, "/level?emission=0.5", undefined, "POST"), 404, "no volume, no levels");
   await page.close();
   assert.equal(await end(server, "SIGINT"), 0);
+});
+
+/** What the canvas without WebGL shows, as PNG; null while it is not shown. */
+const servedPicture = (page) => page.evaluate(() => {
+  const canvas = document.getElementById("served");
+  return canvas.hidden ? null : canvas.toDataURL().split(",")[1];
+});
+
+test("where the browser draws in software the server draws maxima, as the command does", async () => {
+  const { server, address } = await serve("angiogram.glb");
+  const page = await open(browser, `${address}#azimuth=20&colormap=hot`); // SwiftShader, which is told
+  const shown = async (name) => {
+    await settled(page);
+    const png = await servedPicture(page);
+    assert.notEqual(png, null, "the server's picture is shown");
+    writeFileSync(inFolder(name), Buffer.from(png, "base64"));
+    return inFolder(name);
+  };
+  const drawn = (...flags) => {
+    const { width, height } = page.viewportSize();
+    const wide = width - 310; // the panel's width
+    nacre("render", "angiogram.glb", "--backend", "cpu", "--size", `${wide}x${height}`, ...flags, "-o", "nacre.png", "-q");
+    return inFolder("nacre.png");
+  };
+  assert.ok(await psnr(page, await shown("a.png"), drawn("--azimuth", "20", "--colormap", "hot")) >= 50);
+  assert.match(await page.textContent("#status"), /drawn by nacre, 512 × 512/);
+  assert.equal(await page.textContent("#command"), "nacre render set.glb --azimuth 20 --colormap hot -o picture.png");
+  const turned = "#elevation=30&slab=-10,20&cue=0.5,0.5,0&hide=2&display=0,0.8";
+  await page.evaluate((hash) => goTo(hash), turned);
+  assert.ok(await psnr(page, await shown("b.png"), drawn(
+    "--elevation", "30", "--slab=-10,20", "--cue", "0.5,0.5,0", "--hide", "2", "--display", "0,0.8")) >= 60);
+  nacre("render", "angiogram.glb", "--elevation", "30", "--slab=-10,20", "--cue", "0.5,0.5,0", "--hide", "2", "--display", "0,0.8",
+    "--backend", "cpu", "--size", "300x200", "-o", "saved.png", "-q");
+  assert.ok(await psnr(page, await savePicture(page, "page.png", 300, 200), inFolder("saved.png")) >= 60);
+
+  // What moves is drawn soon, then as well as it can be.
+  const asked = [];
+  page.on("request", (request) => asked.push(request.url()));
+  await page.evaluate(() => goTo("#"));
+  await page.focus("#picture");
+  await page.keyboard.press("ArrowLeft");
+  await page.waitForFunction(() => document.documentElement.dataset.state === "ready");
+  await settled(page);
+  const layers = asked.map((url) => new URL(url).searchParams.get("layers"));
+  assert.equal(layers.at(-1), "fine", layers.join());
+
+  // Surfaces are lit, and tools drawn, by the page itself.
+  await page.evaluate(() => goTo("#mode=iso"));
+  assert.equal(await servedPicture(page), null);
+  await page.evaluate(() => goTo("#"));
+  assert.notEqual(await servedPicture(page), null);
+  writeTool();
+  const before = await look(page);
+  await page.setInputFiles("#tool-file", inFolder("tool.obj"));
+  await page.waitForFunction(() => document.getElementById("served").hidden);
+  assert.notEqual(await look(page), before);
+  assert.deepEqual(page.problems, []);
+  await page.close();
+  assert.equal(await end(server, "SIGINT"), 0);
+});
+
+test("a page whose server has gone draws by itself", async () => {
+  const { server, address } = await serve("angiogram.glb");
+  const page = await open(browser, address);
+  assert.notEqual(await servedPicture(page), null);
+  assert.equal(await end(server, "SIGINT"), 0);
+  await page.evaluate(() => goTo("#azimuth=40"));
+  assert.equal(await servedPicture(page), null);
+  nacre("render", "angiogram.glb", "--azimuth", "40", "--layers", "flat", "--size", "256x256", "-o", "nacre.png", "-q");
+  assert.ok(await psnr(page, await savePicture(page, "page.png", 256, 256), inFolder("nacre.png")) >= 40);
+  await page.close();
 });
 
 test("levels are added, moved and deleted while it is served", async () => {

@@ -18,6 +18,8 @@ export class FrameLoop {
   private dirty = false;
   private scheduled = false;
   private fence: WebGLSync | null = null;
+  /** Whether a picture is being drawn elsewhere. */
+  private awaited = false;
   private started = 0;
   private movedAt = -Infinity;
   private restTimer = 0;
@@ -29,8 +31,11 @@ export class FrameLoop {
 
   constructor(
     private readonly gl: WebGL2RenderingContext,
-    /** Whether the picture has the detail that was asked for: its time then counts. */
-    private readonly draw: () => boolean,
+    /**
+     * Whether the picture has the detail that was asked for: its time then counts. A promise where
+     * it is drawn elsewhere first.
+     */
+    private readonly draw: () => boolean | Promise<boolean>,
     private readonly measured: () => void,
   ) {}
 
@@ -64,7 +69,7 @@ export class FrameLoop {
 
   /** Whether what is on the screen is the last that was asked for. */
   isSettled(): boolean {
-    return !this.dirty && !this.fence && !this.reduced && this.loadingTimer === 0;
+    return !this.dirty && !this.fence && !this.awaited && !this.reduced && this.loadingTimer === 0;
   }
 
   /** Of the device's pixels, in each direction. */
@@ -75,6 +80,9 @@ export class FrameLoop {
 
   /** Whether shells that have a coarse copy are drawn as that. */
   isCoarse(): boolean { return this.isMoving() && this.detail.amount.isCoarse; }
+
+  /** To be called while drawing what shows less than it will at rest. */
+  drawnWithLess(): void { this.reduced = true; }
 
   /** After a lost context: what was in flight never ends. */
   restart(): void {
@@ -94,16 +102,30 @@ export class FrameLoop {
 
   private frame(): void {
     this.scheduled = false;
-    if (!this.dirty || this.fence) return;
+    if (!this.dirty || this.fence || this.awaited) return;
     this.dirty = false;
     clearTimeout(this.loadingTimer);
     this.loadingTimer = 0;
     this.started = performance.now();
     this.reduced = this.scale() < 1 || this.stride() > 1 || this.isCoarse();
-    this.counts = this.draw();
+    const drawn = this.draw();
+    if (typeof drawn !== "boolean") {
+      this.awaited = true;
+      void drawn.then((counts) => this.ended(counts));
+      return;
+    }
+    this.counts = drawn;
     this.fence = this.gl.fenceSync(this.gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
     this.gl.flush();
     this.poll();
+  }
+
+  /** A picture drawn elsewhere is on the screen: the graphics side has no part in it. */
+  private ended(counts: boolean): void {
+    this.awaited = false;
+    this.counts = counts;
+    this.account();
+    if (this.dirty) this.schedule();
   }
 
   private poll(): void {

@@ -9,6 +9,7 @@ import { Overlay } from "./overlay";
 import { Panel } from "./panel";
 import { PoseHandles } from "./pose_handles";
 import type { FloatTargets } from "./renderer";
+import { drawsInSoftware, ServedPictures } from "./served_pictures";
 import { hashOf, stateOf } from "./state";
 import { Viewer } from "./viewer";
 
@@ -88,8 +89,8 @@ function keepAddress(viewer: Viewer): void {
 }
 
 function showStatus(viewer: Viewer): void {
-  const { loop, canvas } = viewer;
-  const pixels = `${canvas.width} × ${canvas.height}`;
+  const { loop } = viewer;
+  const pixels = `${viewer.pixels.width} × ${viewer.pixels.height}`;
   const speed = loop.isMoving() && loop.rate > 1 ? `, ${loop.rate} a second` : "";
   const less = [
     ...(loop.isCoarse() ? ["coarse copies"] : []),
@@ -97,8 +98,8 @@ function showStatus(viewer: Viewer): void {
   ].join(", ");
   const shells = less ? `, ${less} while it moves` : "";
   const thousands = Math.round(viewer.triangles / 1000).toLocaleString("en");
-  byId("status").textContent =
-    `${loop.milliseconds.toFixed(1)} ms a frame${speed}\n${thousands}k triangles, ${pixels}${shells}`;
+  const drawn = viewer.isServed() ? `drawn by nacre, ${pixels}` : `${thousands}k triangles, ${pixels}${shells}`;
+  byId("status").textContent = `${loop.milliseconds.toFixed(1)} ms a frame${speed}\n${drawn}`;
 }
 
 function showProgress(viewer: Viewer): void {
@@ -139,6 +140,16 @@ function bindPanelToggle(): void {
 
 const asked = new URLSearchParams(location.search);
 
+/**
+ * Whether the server is to draw maxima: where the browser draws in software, or as
+ * ?pictures=server or ?pictures=page say.
+ */
+function asksForPictures(viewer: Viewer): boolean {
+  if (!isLive && !setText.startsWith("fetch:")) return false;
+  const given = asked.get("pictures");
+  return given === "server" || (given !== "page" && drawsInSoftware(viewer.gl));
+}
+
 /** Which float targets to use at most, for trying what lesser devices show: ?floats=half. */
 function floatsWanted(): FloatTargets {
   const given = asked.get("floats");
@@ -147,7 +158,8 @@ function floatsWanted(): FloatTargets {
 
 async function start(): Promise<void> {
   page.dataset.state = "starting";
-  const viewer = new Viewer(byId<HTMLCanvasElement>("picture"), byId("nacre-decoder").textContent!, floatsWanted());
+  const viewer = new Viewer(
+    byId<HTMLCanvasElement>("picture"), byId<HTMLCanvasElement>("served"), byId("nacre-decoder").textContent!, floatsWanted());
   viewer.loop.detail.isFixed = asked.get("detail") === "full";
   const actions = new Actions(viewer);
   const overlay = new Overlay(byId("overlay"));
@@ -169,8 +181,13 @@ async function start(): Promise<void> {
     if (what === "frame") overlay.update(viewer.camera(), viewer.canvas.clientWidth);
   });
   const bytes = await ownSet();
-  if (bytes) actions.openSet("The shell set of this page", bytes);
-  else {
+  if (bytes) {
+    actions.openSet("The shell set of this page", bytes);
+    if (viewer.set && asksForPictures(viewer)) {
+      viewer.served = new ServedPictures("picture");
+      viewer.change({});
+    }
+  } else {
     page.dataset.state = "empty";
     say("No shell set yet: open or drop a .glb that nacre build wrote.", "news");
     viewer.change({});

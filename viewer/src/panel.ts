@@ -135,7 +135,7 @@ export class Panel {
     this.showNote();
     this.showSliders();
     this.shells.show();
-    byId("command").textContent = commandOf(state);
+    byId("command").textContent = commandOf(state, this.viewer.isServed());
   }
 
   private showNote(): void {

@@ -22,7 +22,7 @@ export async function pngOf(
   gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(pixels.buffer));
   gl.deleteFramebuffer(target);
   gl.deleteRenderbuffer(color);
-  return encoded(flipped(pixels, width, height), width, height);
+  return encoded(new ImageData(flipped(pixels, width, height), width, height));
 }
 
 /** Rows in the other order: OpenGL's first is the lowest. */
@@ -35,10 +35,11 @@ function flipped(pixels: Uint8ClampedArray, width: number, height: number): Uint
   return rows;
 }
 
-function encoded(pixels: Uint8ClampedArray<ArrayBuffer>, width: number, height: number): Promise<Blob> {
+/** As a PNG. */
+export function encoded(picture: ImageData): Promise<Blob> {
   const canvas = document.createElement("canvas");
-  [canvas.width, canvas.height] = [width, height];
-  canvas.getContext("2d")!.putImageData(new ImageData(pixels, width, height), 0, 0);
+  [canvas.width, canvas.height] = [picture.width, picture.height];
+  canvas.getContext("2d")!.putImageData(picture, 0, 0);
   return new Promise((resolve, reject) => canvas.toBlob(
     (blob) => (blob ? resolve(blob) : reject(new Error("the browser made no PNG"))), "image/png"));
 }

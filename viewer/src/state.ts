@@ -66,9 +66,12 @@ export function flagsOf(state: State): [string, string][] {
 export const hashOf = (state: State): string =>
   flagsOf(state).map(([name, value]) => `${name}=${value}`).join("&");
 
-/** The same picture on the command line, which by itself smooths the layers of a maximum. */
-export const commandOf = (state: State): string => {
-  const smooth = state.mode === "max" && state.cue.a === 0 && state.hidden.size === 0;
+/**
+ * The same picture on the command line, which by itself smooths the layers of a maximum.
+ * @param isServed  whether the server draws it, as the command would
+ */
+export const commandOf = (state: State, isServed: boolean): string => {
+  const smooth = !isServed && state.mode === "max" && state.cue.a === 0 && state.hidden.size === 0;
   return ["nacre render set.glb", ...flagsOf(state).map(([name, value]) => `--${name} ${value}`),
     ...(smooth ? ["--layers flat"] : []), "-o picture.png"].join(" ");
 };

@@ -6,7 +6,8 @@ import { makePlan, type Mode, type Plan, type PictureOptions, type Scene } from 
 import type { Interval } from "./projection";
 import type { GpuMesh } from "./meshes";
 import { Renderer, type Display, type FloatTargets, type Frame } from "./renderer";
-import { ownWindowSide, pngOf } from "./picture_file";
+import type { ServedPictures } from "./served_pictures";
+import { encoded, ownWindowSide, pngOf } from "./picture_file";
 import { trianglesOf, type Level, type ShellSet, type Surface } from "./shell_set";
 import { firstState, lawfulCue, type State } from "./state";
 import { ToolShelf } from "./tools";
@@ -19,6 +20,11 @@ const copiesShare = 0.5;
 /** Most pixels of the canvas a CSS pixel, in each direction. */
 const mostPixelRatio = 2;
 
+function sized(canvas: HTMLCanvasElement, width: number, height: number): void {
+  if (canvas.width !== width) canvas.width = width;
+  if (canvas.height !== height) canvas.height = height;
+}
+
 export type Listener = (what: "state" | "set" | "frame" | "loading" | "tools") => void;
 
 export class Viewer {
@@ -30,14 +36,21 @@ export class Viewer {
   plan: Plan | null = null;
   /** Whether the last picture had every shell, as itself or as its copy; and all as themselves. */
   picture = { isComplete: false, isWhole: false };
+  /** Where the server draws pictures of this set that the browser would draw in software. */
+  served: ServedPictures | null = null;
+  /** Of the last picture. */
+  pixels = { width: 0, height: 0 };
   private renderer: Renderer;
-  private readonly gl: WebGL2RenderingContext;
+  readonly gl: WebGL2RenderingContext;
   private listeners: Listener[] = [];
   /** The largest sum and count of the whole set, once known. */
   private readonly largest = new Map<Mode, { value: number; isWhole: boolean }>();
 
   constructor(
-    readonly canvas: HTMLCanvasElement, decoderSource: string, private readonly floats: FloatTargets,
+    readonly canvas: HTMLCanvasElement,
+    /** Over it, without WebGL: for pictures that are drawn elsewhere. */
+    private readonly servedCanvas: HTMLCanvasElement,
+    decoderSource: string, private readonly floats: FloatTargets,
   ) {
     const gl = canvas.getContext("webgl2", { antialias: false, depth: false, alpha: false });
     if (!gl) throw new Error("no WebGL2");
@@ -62,6 +75,7 @@ export class Viewer {
 
   /** Shows another set; the state stays as far as it makes sense. */
   open(set: ShellSet): void {
+    this.served = null;
     for (const level of this.set?.levels ?? []) this.forget(level);
     this.loader.problem = "";
     this.largest.clear();
@@ -94,6 +108,7 @@ export class Viewer {
 
   /** A list of levels that has changed: one added, gone, or another in the place of an old one. */
   levelsChanged(old: Level | null, made: Level | null): void {
+    this.served = null; // the server has the levels it began with
     if (old && made) this.loader.replace(old, made);
     else if (old) this.forget(old);
     this.largest.clear();
@@ -117,6 +132,8 @@ export class Viewer {
 
   /** This view as a PNG, drawn anew at that size. */
   async save(width: number, height: number): Promise<Blob> {
+    const served = await this.servedPicture(width, height, false);
+    if (served) return encoded(served);
     const frame = this.frame(this.camera(width, height), this.state.hidden, false);
     const blob = await pngOf(this.gl, width, height, (target) =>
       this.renderer.draw(frame, this.display(), target));
@@ -191,15 +208,54 @@ export class Viewer {
     return hidden;
   }
 
-  /** Whether the picture has what is to be judged by its time: a moving one its copies. */
-  private draw(): boolean {
-    if (this.gl.isContextLost()) return false;
+  /** Whether the server draws what is shown. */
+  isServed(): boolean {
+    return this.served !== null && this.set !== null && this.served.draws(this.state) &&
+      this.shelf.scene().bounds.length === 0;
+  }
+
+  /** The server's picture; none where it draws none, or no longer does. */
+  private async servedPicture(width: number, height: number, soon: boolean): Promise<ImageData | null> {
+    const { served } = this;
+    if (!served || !this.isServed()) return null;
+    try {
+      return await served.picture(this.state, width, height, soon);
+    } catch {
+      this.served = null; // gone, or it does not draw this: from now on all is drawn here
+      return null;
+    }
+  }
+
+  private async drawServed(width: number, height: number): Promise<boolean> {
+    const soon = this.loop.isMoving();
+    if (soon) this.loop.drawnWithLess();
+    const picture = await this.servedPicture(width, height, soon);
+    if (!picture) {
+      this.loop.invalidate();
+      return false;
+    }
+    sized(this.servedCanvas, width, height);
+    this.servedCanvas.getContext("2d")!.putImageData(picture, 0, 0);
+    this.servedCanvas.hidden = false;
+    this.renderer.triangles = 0;
+    this.picture = { isComplete: true, isWhole: true };
+    return true;
+  }
+
+  private draw(): boolean | Promise<boolean> {
     const { canvas } = this;
     const ratio = Math.min(window.devicePixelRatio, mostPixelRatio) * this.loop.scale();
     const width = Math.max(1, Math.round(canvas.clientWidth * ratio));
     const height = Math.max(1, Math.round(canvas.clientHeight * ratio));
-    if (canvas.width !== width) canvas.width = width;
-    if (canvas.height !== height) canvas.height = height;
+    this.pixels = { width, height };
+    return this.isServed() ? this.drawServed(width, height) : this.drawHere(width, height);
+  }
+
+  /** Whether the picture has what is to be judged by its time: a moving one its copies. */
+  private drawHere(width: number, height: number): boolean {
+    if (this.gl.isContextLost()) return false;
+    sized(this.canvas, width, height);
+    this.servedCanvas.hidden = true;
     const coarse = this.loop.isCoarse();
     const frame = this.frame(this.camera(width, height), this.hiddenNow(), coarse);
     this.plan = frame.plan;
