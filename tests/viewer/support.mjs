@@ -164,6 +164,17 @@ export const psnrOfView = (page, hash, width, height, path) => page.evaluate(asy
   return psnrOf(shown, await pixelsOf(pngOf(given.png)));
 }, { hash: visitOf(hash), width, height, png: base64Of(path) });
 
+/** Of the pixels of two pictures, the shares that differ by more than 1/255 and by more than 8/255 in some channel. */
+export const differences = (page, a, b) => page.evaluate(async ([one, other]) => {
+  const [x, y] = [await pixelsOf(pngOf(one)), await pixelsOf(pngOf(other))];
+  const beyond = (most) => {
+    let pixels = 0;
+    for (let i = 0; i < x.length; i += 4) if ([0, 1, 2].some((c) => Math.abs(x[i + c] - y[i + c]) > most)) ++pixels;
+    return pixels / (x.length / 4);
+  };
+  return { one: beyond(1), eight: beyond(8) };
+}, [base64Of(a), base64Of(b)]);
+
 const boxOf = (page) => page.evaluate(() => {
   const { x, y, width, height } = document.getElementById("picture").getBoundingClientRect();
   return { x, y, width, height };

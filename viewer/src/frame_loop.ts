@@ -28,6 +28,10 @@ export class FrameLoop {
   /** Whether the last frame had less detail than one at rest. */
   private reduced = false;
   private counts = true;
+  /** No motion for a while. */
+  private atRest = true;
+  /** Whether the last picture can be finished once it is at rest. */
+  isUnfinished = false;
 
   constructor(
     private readonly gl: WebGL2RenderingContext,
@@ -36,6 +40,8 @@ export class FrameLoop {
      * it is drawn elsewhere first.
      */
     private readonly draw: () => boolean | Promise<boolean>,
+    /** Does what the last picture can do without while it moves. */
+    private readonly finish: () => void,
     private readonly measured: () => void,
   ) {}
 
@@ -47,6 +53,7 @@ export class FrameLoop {
   /** The same, for a picture that moves: it may be drawn with fewer pixels, and again at rest. */
   invalidateMoving(): void {
     this.movedAt = performance.now();
+    this.atRest = false;
     clearTimeout(this.restTimer);
     this.restTimer = window.setTimeout(() => this.rest(), restAfter);
     this.invalidate();
@@ -69,7 +76,8 @@ export class FrameLoop {
 
   /** Whether what is on the screen is the last that was asked for. */
   isSettled(): boolean {
-    return !this.dirty && !this.fence && !this.awaited && !this.reduced && this.loadingTimer === 0;
+    const isDrawn = !this.dirty && !this.fence && !this.awaited && !this.reduced;
+    return isDrawn && !this.isUnfinished && this.loadingTimer === 0;
   }
 
   /** Of the device's pixels, in each direction. */
@@ -91,7 +99,17 @@ export class FrameLoop {
   }
 
   private rest(): void {
-    if (this.reduced) this.invalidate();
+    this.atRest = true;
+    if (this.reduced) return this.invalidate();
+    if (this.dirty || this.fence || !this.isUnfinished) return; // a picture comes, or there is nothing to do
+    this.finishAtRest();
+    this.measured();
+  }
+
+  private finishAtRest(): void {
+    if (!this.isUnfinished || !this.atRest || this.dirty) return;
+    this.isUnfinished = false;
+    this.finish();
   }
 
   private schedule(): void {
@@ -125,6 +143,7 @@ export class FrameLoop {
     this.awaited = false;
     this.counts = counts;
     this.account();
+    this.measured();
     if (this.dirty) this.schedule();
   }
 
@@ -138,6 +157,8 @@ export class FrameLoop {
     gl.deleteSync(fence);
     this.fence = null;
     this.account();
+    this.finishAtRest();
+    this.measured();
     if (this.dirty) this.schedule();
   }
 
@@ -148,6 +169,5 @@ export class FrameLoop {
     this.rate = this.ends.length;
     if (this.isMoving() && this.counts) this.detail.account(this.milliseconds);
     else if (!this.isMoving()) this.detail.accountAtRest(this.milliseconds);
-    this.measured();
   }
 }

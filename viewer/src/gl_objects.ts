@@ -113,12 +113,13 @@ export class Target {
     private readonly depthFormat: number,
   ) {}
 
-  /** Binds it, cleared to the depth and to colour 0, with the size given. */
-  begin(width: number, height: number, depth: number): void {
+  /** Binds it, cleared to the depth and to colour 0 (null: not cleared), with the size given. */
+  begin(width: number, height: number, depth: number | null): void {
     const { gl } = this;
     if (this.width !== width || this.height !== height) this.resize(width, height);
     gl.bindFramebuffer(gl.FRAMEBUFFER, this.framebuffer);
     gl.viewport(0, 0, width, height);
+    if (depth === null) return;
     gl.depthMask(true);
     gl.clearDepth(depth);
     gl.clearColor(0, 0, 0, 0);

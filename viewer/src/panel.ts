@@ -7,7 +7,7 @@ import type { Mode } from "./plan";
 import { trianglesOf, type ShellSet } from "./shell_set";
 import { ShellList } from "./shell_list";
 import { ToolList } from "./tool_list";
-import { commandOf, noCue, noSlab, type State } from "./state";
+import { commandOf, isSmooth, noCue, noSlab, type State } from "./state";
 import { clamp } from "./vector";
 import type { Viewer } from "./viewer";
 
@@ -141,6 +141,9 @@ export class Panel {
   private showNote(): void {
     const { viewer } = this;
     const { mode } = viewer.state;
+    const layers = mode !== "max" ? "" : isSmooth(viewer.state)
+      ? " Estimated between the shells' levels."
+      : " Each layer shows one brightness.";
     const adds = mode === "sum" || mode === "count";
     const note = byId("mode-note");
     const words: Record<string, string> = {
@@ -148,7 +151,7 @@ export class Panel {
       half: " This device adds in half floats: sums are good to about 1 %.",
       none: " This device cannot add up in floats: sums and counts are not shown.",
     };
-    note.textContent = modeNotes[mode] + (adds ? words[viewer.floatTargets] : "");
+    note.textContent = modeNotes[mode] + layers + (adds ? words[viewer.floatTargets] : "");
     note.classList.toggle("warn", adds && viewer.floatTargets !== "float");
   }
 
@@ -234,7 +237,8 @@ function copiesFacts(set: ShellSet): [string, string][] {
 function certificateFacts(certificate: unknown): [string, string][] {
   if (typeof certificate !== "object" || certificate === null) return [["Certificate", "none in this file"]];
   const list = [
-    ...errorFact("Maximum", memberOf(certificate, "max"), "(emission, 0 to 1)"),
+    ...errorFact("Maximum, flat layers", memberOf(certificate, "max"), "(emission, 0 to 1)"),
+    ...errorFact("Between levels, nine rays a pixel", memberOf(certificate, "max_fine"), "(emission, 0 to 1)"),
     ...errorFact("Sum", memberOf(certificate, "sum"), "(emission \u00d7 mm)"),
   ];
   const surfaces = memberOf(certificate, "surfaces");

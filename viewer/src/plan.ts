@@ -3,6 +3,7 @@
  * function of the set's directory, the camera and the options; no shell need be decoded.
  */
 import { type Camera } from "./camera";
+import { layersOfRanks, type LayerRange } from "./layers";
 import {
   beta, mayHide, nearPlane, outsideView, rangeOn, viewDepth, viewDepthOfSlab, type Box, type Cue,
   type Interval, type RaySpan,
@@ -14,6 +15,7 @@ export type Faces = "front" | "back" | "both";
 export type PassKind = "max" | "startCounts" | "endCounts" | "sum" | "count" | "lit";
 
 export interface ShellFacts {
+  emission: number;
   representative: number;
   /** What sums show for the layer, most often the same. */
   sumRepresentative: number;
@@ -34,6 +36,8 @@ export interface PictureOptions {
   /** mm from the centre along the viewing direction; infinite where nothing is cut. */
   slab: Interval;
   hidden: ReadonlySet<number>;
+  /** Shells that are not drawn, but leave their layers to others: of a picture that moves. */
+  leftOut: ReadonlySet<number>;
 }
 
 export interface ShellDraw {
@@ -54,6 +58,8 @@ export interface Pass {
   depths: Interval;
   /** Start- and endCounts: the emission where n shells are around, [0] = 0. */
   emissionOfCount: number[];
+  /** The rank of that emission, where depths are ranks. */
+  rankOfCount: number[];
 }
 
 export interface Plan {
@@ -66,6 +72,8 @@ export interface Plan {
   /** Brightness of depth 1 in a cued maximum; 0 where depths are ranks. */
   depthScale: number;
   emissionOfRank: number[];
+  /** Between which a maximum is estimated, one for each rank; none: it stays as it is. */
+  layers: LayerRange[];
   normals: boolean;
   /** Shells drawn, in the order in which they are best decoded. */
   wanted: number[];
@@ -87,7 +95,7 @@ function shownShells(scene: Scene, options: PictureOptions): Shown[] {
   let around = 0;
   const list: Shown[] = [];
   scene.shells.forEach((facts, index) => {
-    if (options.hidden.has(index) || facts.triangles === 0) return;
+    if (options.hidden.has(index) || options.leftOut.has(index) || facts.triangles === 0) return;
     const step = facts.sumRepresentative - around;
     around = facts.sumRepresentative;
     const dark = options.mode === "sum" ? step === 0
@@ -117,7 +125,7 @@ function drawOf(shell: Shown, faces: Faces): ShellDraw {
 }
 
 const pass = (kind: PassKind, draws: ShellDraw[], emissionOfCount: number[] = []): Pass =>
-  ({ kind, draws, depths: { lo: 0, hi: 0 }, emissionOfCount });
+  ({ kind, draws, depths: { lo: 0, hi: 0 }, emissionOfCount, rankOfCount: [] });
 
 /** The largest emission shown where n of the shells, nested, surround a point. */
 function counting(kind: PassKind, shells: Shown[]): Pass {
@@ -150,7 +158,20 @@ function remap(plan: Plan, draws: ShellDraw[], scene: Scene, cue: Cue): void {
   });
 }
 
-function planMax(plan: Plan, shells: Shown[], scene: Scene, cue: Cue): void {
+/** Under a cue a pixel does not tell its layer; where shells are hidden, those shown are to show alone. */
+function planLayers(plan: Plan, scene: Scene, options: PictureOptions): void {
+  const { cue, hidden, leftOut } = options;
+  if (cue.a !== 0 || hidden.size > 0) return;
+  const factor = beta(cue, 0);
+  const levels = scene.shells.filter((_, k) => !leftOut.has(k));
+  plan.layers = layersOfRanks(levels, factor, plan.emissionOfRank);
+  for (const { emissionOfCount, rankOfCount } of plan.passes) {
+    rankOfCount.push(...emissionOfCount.map((emission) => plan.emissionOfRank.indexOf(factor * emission)));
+  }
+}
+
+function planMax(plan: Plan, shells: Shown[], scene: Scene, options: PictureOptions): void {
+  const { cue } = options;
   const draws = shells.map((shell) => drawOf(shell, facesFor(shell, cue.a)));
   remap(plan, draws, scene, cue);
   // Brightest first: most of what is covered never passes the depth test.
@@ -161,6 +182,7 @@ function planMax(plan: Plan, shells: Shown[], scene: Scene, cue: Cue): void {
   if (starts.length > 0) plan.passes.push(counting("startCounts", starts));
   const ends = shells.filter((shell) => shell.endsInside && cue.a < 0);
   if (ends.length > 0) plan.passes.push(counting("endCounts", ends));
+  planLayers(plan, scene, options);
 }
 
 function planCrossings(plan: Plan, shells: Shown[], kind: "sum" | "count"): void {
@@ -227,15 +249,15 @@ export function makePlan(scene: Scene, camera: Camera, options: PictureOptions):
   const { cue, mode } = options;
   const plan: Plan = {
     tools: [], toolDepths: { lo: Infinity, hi: -Infinity }, passes: [], cue,
-    rays: raySpan(camera, options.slab), depthScale: 0, emissionOfRank: [0], normals: false,
-    wanted: [],
+    rays: raySpan(camera, options.slab), depthScale: 0, emissionOfRank: [0], layers: [],
+    normals: false, wanted: [],
   };
   findTools(plan, scene, camera);
   const empty = plan.rays.end <= plan.rays.start;
   const shells = empty ? [] : shownShells(scene, options).filter((shell) =>
     findEnds(shell, plan, scene, camera, options));
   if (shells.length > 0) {
-    if (mode === "max") planMax(plan, shells, scene, cue);
+    if (mode === "max") planMax(plan, shells, scene, options);
     else if (mode === "iso") planLit(plan, shells);
     else planCrossings(plan, shells, mode);
   }

@@ -3,8 +3,9 @@
  * render/ray_frame.h, for one whole picture. y points down in clip coordinates, so that row 0 of a
  * target is the picture's top row, as there.
  */
+import type { Border } from "./border";
 import { eyeOf, slabDepth, type Camera } from "./camera";
-import { combine, dot, scale, sub, type Row, type Vec3 } from "./vector";
+import { add, combine, dot, scale, sub, type Row, type Vec3 } from "./vector";
 
 export interface Interval { lo: number; hi: number }
 export interface Box { lo: Vec3; hi: Vec3 }
@@ -139,4 +140,23 @@ export function rayFrame(camera: Camera, origin: Vec3, rays: RaySpan, cue: Cue):
     slopeOfPixel: slopeOfPixel(camera),
     localFromView: [camera.right, camera.up, scale(camera.forward, 1)],
   };
+}
+
+/** Rays in voxels: where they are and whither, each a + x b + y c, x and y a pixel's place. */
+export interface VoxelRays { from: readonly Vec3[]; way: readonly Vec3[] }
+
+export function voxelRays(camera: Camera, origin: Vec3, border: Border): VoxelRays {
+  const perPixel = (2 * camera.halfExtent) / Math.min(camera.width, camera.height);
+  const right = scale(camera.right, perPixel);
+  const down = scale(camera.up, -perPixel);
+  const corner = add(scale(right, -camera.width / 2), scale(down, -camera.height / 2));
+  const voxels = (v: Vec3): Vec3 => border.toVoxels.map((row) => dot(row, v)) as unknown as Vec3;
+  const middle = add(origin, border.middleMm);
+  const place = (p: Vec3): Vec3 => add(voxels(sub(p, middle)), border.middle);
+  const still: Vec3 = [0, 0, 0];
+  return camera.perspective
+    ? { from: [place(eyeOf(camera)), still, still],
+      way: [voxels(add(camera.forward, corner)), voxels(right), voxels(down)] }
+    : { from: [place(add(camera.target, corner)), voxels(right), voxels(down)],
+      way: [voxels(camera.forward), still, still] };
 }

@@ -2,13 +2,16 @@
  * Draws a plan with WebGL2, by the formulas of render/gl. In place of glClipControl and glDepthRange
  * (a range cannot be turned round here), a shell's remap is made in the vertex stage.
  */
+import type { Border } from "./border";
 import type { Camera } from "./camera";
 import { colorMapBytes, isInverted } from "./color_maps";
-import { ProgramFamily, Target, texture, type Program, type UniformValue } from "./gl_objects";
+import { ProgramFamily, Target, type Program, type UniformValue } from "./gl_objects";
+import { LayerEstimate } from "./layer_estimate";
 import { drawMesh, type GpuMesh } from "./meshes";
 import type { Faces, Mode, Pass, Plan, ShellDraw } from "./plan";
-import { clipRows, rayFrame, type Interval, type RayFrame } from "./projection";
+import { clipRows, rayFrame, voxelRays, type Interval, type RayFrame } from "./projection";
 import * as shaders from "./shaders";
+import { Tables } from "./tables";
 import type { Vec3 } from "./vector";
 
 /** What sums and counts are added up in. */
@@ -20,6 +23,8 @@ export interface Frame {
   camera: Camera;
   plan: Plan;
   origin: Vec3;
+  /** Of the volume, if that has an inside. */
+  border: Border | null;
   /** The shells' meshes, undefined while a shell is not there yet. */
   shells: readonly (GpuMesh | undefined)[];
   tools: readonly GpuTool[];
@@ -32,9 +37,10 @@ export interface Display {
   over: boolean;
 }
 
-const mapSteps = 1024;
 const largest = 3.0e38;
 const noTool = 1;
+/** Voxels: the rounding of rays' places. */
+const atBorder = 1e-4;
 
 type Uniforms = Record<string, UniformValue>;
 
@@ -50,10 +56,11 @@ export class Renderer {
   triangles = 0;
   private readonly families: Record<"max" | "crossings" | "lit" | "tool" | "display", ProgramFamily>;
   private readonly targets: Record<"depth" | "values" | "lit" | "starts" | "ends" | "tools", Target>;
-  private readonly tables: WebGLTexture;
-  private readonly colorMap: WebGLTexture;
+  private readonly tables: Tables;
+  private readonly layers: LayerEstimate;
   private readonly nothing: WebGLVertexArrayObject;
-  private shownMap = "";
+  /** What the targets hold. */
+  private measured: Frame | null = null;
 
   constructor(private readonly gl: WebGL2RenderingContext, wanted: FloatTargets = "float") {
     this.floatTargets = usableTargets(gl, wanted);
@@ -71,8 +78,8 @@ export class Renderer {
       lit: new Target(gl, gl.R8, depth), tools: new Target(gl, gl.RGBA8, depth),
       starts: new Target(gl, gl.R16F, 0), ends: new Target(gl, gl.R16F, 0),
     };
-    this.tables = gl.createTexture()!;
-    this.colorMap = texture(gl, gl.RGBA8, mapSteps, 1, gl.LINEAR);
+    this.tables = new Tables(gl);
+    this.layers = new LayerEstimate(gl);
     this.nothing = gl.createVertexArray()!;
     gl.frontFace(gl.CW); // y points down in clip coordinates
   }
@@ -80,8 +87,17 @@ export class Renderer {
   /** Draws the frame and shows it in `target` (null: the canvas). */
   draw(frame: Frame, display: Display, target: WebGLFramebuffer | null): void {
     this.measure(frame);
+    if (frame.plan.layers.length > 0 && !this.layers.isKnown) this.estimate(frame);
     this.show(frame, display, target);
   }
+
+  /** Shows the frame that was drawn last anew, estimated between the levels with its own weights. */
+  finish(frame: Frame, display: Display, target: WebGLFramebuffer | null): void {
+    if (frame !== this.measured || frame.plan.layers.length === 0) return;
+    if (this.estimate(frame)) this.show(frame, display, target);
+  }
+
+  private estimate({ camera }: Frame): boolean { return this.layers.measure(camera.width, camera.height); }
 
   /** The largest sum or count of the picture. */
   largest(frame: Frame): number {
@@ -104,6 +120,33 @@ export class Renderer {
     const uniforms = this.frameUniforms(frame, rays);
     if (plan.tools.length > 0) this.drawTools(frame, uniforms);
     for (const pass of plan.passes) this.drawPass(pass, frame, uniforms);
+    if (plan.layers.length > 0) this.drawRanks(frame);
+    this.measured = frame;
+  }
+
+  private drawRanks({ plan, camera, border, origin }: Frame): void {
+    const { gl, targets } = this;
+    const starts = this.floatTargets !== "none" && plan.passes.some((pass) => pass.kind === "startCounts");
+    this.layers.ranks.begin(camera.width, camera.height, 1); // binds a texture where it is made anew
+    const sources = [targets.depth.depth, this.tables.numbers, targets.starts.color, targets.tools.depth];
+    const sizes = this.fillTables(this.layers.tablesOf(plan));
+    sources.forEach((bound, unit) => this.bind(unit, bound));
+    this.setDepthTest(null);
+    this.setFaces("both");
+    gl.bindVertexArray(this.nothing);
+    const rays = border && voxelRays(camera, origin, border);
+    const box = border && rays && {
+      ray_from: rays.from.flat(), ray_way: rays.way.flat(), least_way: camera.perspective ? 0 : -largest,
+      box_lo: border.lo.map((x) => x - atBorder), box_hi: border.hi.map((x) => x + atBorder),
+    };
+    const defines = [
+      ...(starts ? ["STARTS"] : []), ...(plan.tools.length > 0 ? ["TOOLS"] : []), ...(box ? ["BOX"] : []),
+    ];
+    this.layers.drawRanks(defines, {
+      measured: 0, tables: 1, start_counts: 2, tool_depth: 3, table_sizes: sizes,
+      tool_depths_mm: this.toolDepths(plan), ...box,
+    });
+    sources.forEach((_, unit) => this.bind(unit, null));
   }
 
   private frameUniforms(frame: Frame, rays: RayFrame): Uniforms {
@@ -231,29 +274,33 @@ export class Renderer {
     const { plan, camera } = frame;
     const passOf = (kind: Pass["kind"]): Pass | undefined => plan.passes.find((p) => p.kind === kind);
     const main = plan.passes[0];
-    gl.bindFramebuffer(gl.FRAMEBUFFER, target);
-    gl.viewport(0, 0, camera.width, camera.height);
+    const layered = plan.layers.length > 0;
     this.setDepthTest(null);
     this.setFaces("both");
+    gl.bindVertexArray(this.nothing);
+    if (layered) this.layers.drawColumns(camera.width, camera.height);
+    gl.bindFramebuffer(gl.FRAMEBUFFER, target);
+    gl.viewport(0, 0, camera.width, camera.height);
     const blank = !main || (this.floatTargets === "none" && (main.kind === "sum" || main.kind === "count"));
     if (blank && plan.tools.length === 0) return this.clearTo(colorMapBytes(display.colorMap, 2));
     if (blank) targets.depth.begin(camera.width, camera.height, 0);
     gl.bindFramebuffer(gl.FRAMEBUFFER, target);
     const counted = this.floatTargets !== "none";
-    const [starts, ends] = counted ? [passOf("startCounts"), passOf("endCounts")] : [];
-    const depths = blank || main.kind === "max";
+    const [starts, ends] = counted && !layered ? [passOf("startCounts"), passOf("endCounts")] : [];
+    const depths = blank || (main.kind === "max" && !layered);
     const defines = [
-      ...(depths ? ["DEPTHS"] : []), ...(starts ? ["STARTS"] : []), ...(ends ? ["ENDS"] : []),
+      ...(layered ? ["LAYERS"] : []), ...(depths ? ["DEPTHS"] : []), ...(starts ? ["STARTS"] : []), ...(ends ? ["ENDS"] : []),
       ...(plan.tools.length > 0 ? ["TOOLS"] : []),
     ];
-    const source = blank ? targets.depth : this.targetOf(main);
+    const source = blank ? targets.depth : layered ? this.layers.columns : this.targetOf(main);
     const sources = [
-      depths ? source.depth : source.color, this.tables, this.colorMap, targets.starts.color,
+      depths ? source.depth : source.color, this.tables.numbers, this.tables.colors, targets.starts.color,
       targets.ends.color, targets.tools.color, targets.tools.depth,
     ];
-    const sizes = this.fillTables(
-      [plan.emissionOfRank, starts?.emissionOfCount ?? [0], ends?.emissionOfCount ?? [0]]);
-    this.fillColorMap(display.colorMap);
+    const sizes = this.fillTables(layered ? this.layers.tablesOf(plan)
+      : [plan.emissionOfRank, starts?.emissionOfCount ?? [0], ends?.emissionOfCount ?? [0]]);
+    this.gl.activeTexture(gl.TEXTURE2);
+    this.tables.fillColors(display.colorMap);
     sources.forEach((bound, unit) => this.bind(unit, bound));
     const rays = rayFrame(camera, frame.origin, plan.rays, plan.cue);
     const over = display.over || display.mode === "iso";
@@ -264,8 +311,8 @@ export class Renderer {
       height: camera.height, cue: rays.cue, cue_range: rays.cueRange,
       end_mm: Math.min(rays.end, largest), tool_depths_mm: this.toolDepths(plan),
       blend: over ? 2 : display.mode === "max" ? 0 : 1, inverted: isInverted(display.colorMap),
+      ...(layered ? this.layers.uniforms : {}),
     });
-    gl.bindVertexArray(this.nothing);
     gl.drawArrays(gl.TRIANGLES, 0, 3);
     sources.forEach((_, unit) => this.bind(unit, null));
   }
@@ -276,24 +323,8 @@ export class Renderer {
     gl.clear(gl.COLOR_BUFFER_BIT);
   }
 
-  private fillTables(rows: number[][]): number[] {
-    const { gl } = this;
-    const width = Math.max(...rows.map((row) => row.length));
-    const texels = new Float32Array(width * rows.length);
-    rows.forEach((row, i) => texels.set(row, i * width));
-    this.bind(1, this.tables);
-    gl.texImage2D(gl.TEXTURE_2D, 0, gl.R32F, width, rows.length, 0, gl.RED, gl.FLOAT, texels);
-    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.NEAREST);
-    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, gl.NEAREST);
-    return rows.map((row) => row.length);
-  }
-
-  private fillColorMap(name: string): void {
-    if (name === this.shownMap) return;
-    const { gl } = this;
-    this.bind(2, this.colorMap);
-    gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, mapSteps, 1, gl.RGBA, gl.UNSIGNED_BYTE,
-      colorMapBytes(name, mapSteps));
-    this.shownMap = name;
+  private fillTables(rows: readonly (readonly number[])[]): number[] {
+    this.gl.activeTexture(this.gl.TEXTURE1);
+    return this.tables.fill(rows);
   }
 }

@@ -1,4 +1,5 @@
 /** GLSL ES 3.00 with the names and formulas of render/gl. */
+import { estimateSource } from "./layer_shaders";
 
 export const vertexSource = `
 layout(location = 0) in vec3 position_mm;
@@ -148,8 +149,13 @@ void main() {
 export const displaySource = `
 precision highp float;
 precision highp sampler2D;
+#ifdef LAYERS
+uniform highp usampler2D measured;
+#else
 uniform sampler2D measured;   // depth, or a colour target
-uniform sampler2D tables;     // row 0: emission of a rank; 1, 2: of a start, end count
+#endif
+uniform sampler2D tables;     // row 0: emission of a rank; 1, 2: of a start, end count;
+                              // 3, 4: emission a layer below and above a rank's
 uniform sampler2D color_map;
 uniform ivec3 table_sizes;
 uniform float depth_scale;    // 0: depths are ranks
@@ -172,6 +178,9 @@ uniform sampler2D tool_depth;
 uniform vec2 tool_depths_mm;
 #endif
 out vec4 shown;
+#ifdef LAYERS
+${estimateSource}
+#endif
 
 float at_count(sampler2D counts, int row, ivec2 pixel, float depth_mm) {
   int most = (row == 1 ? table_sizes.y : table_sizes.z) - 1;
@@ -183,7 +192,11 @@ float at_count(sampler2D counts, int row, ivec2 pixel, float depth_mm) {
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   pixel.y = height - 1 - pixel.y;
+#ifdef LAYERS
+  float value = between_levels(pixel);
+#else
   float value = texelFetch(measured, pixel, 0).r;
+#endif
 #ifdef DEPTHS
   if (depth_scale > 0.0) {
     value *= depth_scale;

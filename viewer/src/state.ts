@@ -66,15 +66,17 @@ export function flagsOf(state: State): [string, string][] {
 export const hashOf = (state: State): string =>
   flagsOf(state).map(([name, value]) => `${name}=${value}`).join("&");
 
+/** Whether a picture is estimated between the levels, if these make layers. */
+export const isSmooth = ({ mode, cue, hidden }: State): boolean =>
+  mode === "max" && cue.a === 0 && hidden.size === 0;
+
 /**
- * The same picture on the command line, which by itself smooths the layers of a maximum.
+ * The same picture on the command line, which by itself takes more rays a pixel.
  * @param isServed  whether the server draws it, as the command would
  */
-export const commandOf = (state: State, isServed: boolean): string => {
-  const smooth = !isServed && state.mode === "max" && state.cue.a === 0 && state.hidden.size === 0;
-  return ["nacre render set.glb", ...flagsOf(state).map(([name, value]) => `--${name} ${value}`),
-    ...(smooth ? ["--layers flat"] : []), "-o picture.png"].join(" ");
-};
+export const commandOf = (state: State, isServed: boolean): string =>
+  ["nacre render set.glb", ...flagsOf(state).map(([name, value]) => `--${name} ${value}`),
+    ...(!isServed && isSmooth(state) ? ["--layers smooth"] : []), "-o picture.png"].join(" ");
 
 function numbersOf(text: string | null, count: number): number[] | null {
   const numbers = (text ?? "").split(",").map(Number);

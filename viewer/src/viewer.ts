@@ -25,6 +25,8 @@ function sized(canvas: HTMLCanvasElement, width: number, height: number): void {
   if (canvas.height !== height) canvas.height = height;
 }
 
+const nothing: ReadonlySet<number> = new Set();
+
 export type Listener = (what: "state" | "set" | "frame" | "loading" | "tools") => void;
 
 export class Viewer {
@@ -41,6 +43,7 @@ export class Viewer {
   /** Of the last picture. */
   pixels = { width: 0, height: 0 };
   private renderer: Renderer;
+  private drawn: Frame | null = null;
   readonly gl: WebGL2RenderingContext;
   private listeners: Listener[] = [];
   /** The largest sum and count of the whole set, once known. */
@@ -58,7 +61,7 @@ export class Viewer {
     this.renderer = new Renderer(gl, floats);
     this.shelf = new ToolShelf(gl, () => this.set?.sphere.center ?? [0, 0, 0]);
     this.loader = new ShellLoader(gl, decoderSource, () => this.loaded());
-    this.loop = new FrameLoop(gl, () => this.draw(), () => this.tell("frame"));
+    this.loop = new FrameLoop(gl, () => this.draw(), () => this.finish(), () => this.tell("frame"));
     canvas.addEventListener("webglcontextlost", (event) => event.preventDefault());
     canvas.addEventListener("webglcontextrestored", () => this.restore());
     new ResizeObserver(() => this.loop.invalidate()).observe(canvas);
@@ -134,9 +137,11 @@ export class Viewer {
   async save(width: number, height: number): Promise<Blob> {
     const served = await this.servedPicture(width, height, false);
     if (served) return encoded(served);
-    const frame = this.frame(this.camera(width, height), this.state.hidden, false);
-    const blob = await pngOf(this.gl, width, height, (target) =>
-      this.renderer.draw(frame, this.display(), target));
+    const frame = this.frame(this.camera(width, height), nothing, false);
+    const blob = await pngOf(this.gl, width, height, (target) => {
+      this.renderer.draw(frame, this.display(), target);
+      this.renderer.finish(frame, this.display(), target);
+    });
     this.loop.invalidate();
     return blob;
   }
@@ -155,15 +160,18 @@ export class Viewer {
     return { mode, colorMap, over, window: this.window() };
   }
 
-  /** @param coarse  whether shells that have a copy are drawn as that */
-  private frame(camera: Camera, hidden: ReadonlySet<number>, coarse: boolean): Frame {
+  /**
+   * @param leftOut  shells not drawn although they are not hidden
+   * @param coarse   whether shells that have a copy are drawn as that
+   */
+  private frame(camera: Camera, leftOut: ReadonlySet<number>, coarse: boolean): Frame {
     const levels = this.set?.levels ?? [];
     const tools = this.shelf.scene();
     const scene: Scene = { center: this.set?.center ?? [0, 0, 0], shells: levels, tools: tools.bounds };
-    const options: PictureOptions = { ...this.state, hidden };
+    const options: PictureOptions = { ...this.state, leftOut };
     const plan = makePlan(scene, camera, options);
     return {
-      camera, plan, origin: scene.center, tools: tools.gpu,
+      camera, plan, origin: scene.center, border: levels[0]?.border ?? null, tools: tools.gpu,
       shells: levels.map((level) => this.meshOf(level, plan.normals, coarse)),
     };
   }
@@ -197,15 +205,13 @@ export class Viewer {
     ])];
   }
 
-  /** Those hidden, and of the others all but every so many while the picture moves too slowly. */
-  private hiddenNow(): Set<number> {
-    const hidden = new Set(this.state.hidden);
-    const stride = this.state.mode === "iso" ? 1 : this.loop.stride();
-    let shown = 0;
-    for (let k = (this.set?.levels.length ?? 0) - 1; stride > 1 && k >= 0; --k) {
-      if (!hidden.has(k) && shown++ % stride !== 0) hidden.add(k);
-    }
-    return hidden;
+  /** Of those not hidden all but every so many, while the picture moves too slowly. */
+  private leftOutNow(): ReadonlySet<number> {
+    const { hidden, mode } = this.state;
+    const stride = mode === "iso" ? 1 : this.loop.stride();
+    if (stride === 1) return nothing;
+    const shown = [...(this.set?.levels.keys() ?? [])].filter((k) => !hidden.has(k)).reverse();
+    return new Set(shown.filter((_, i) => i % stride !== 0));
   }
 
   /** Whether the server draws what is shown. */
@@ -248,6 +254,7 @@ export class Viewer {
     const width = Math.max(1, Math.round(canvas.clientWidth * ratio));
     const height = Math.max(1, Math.round(canvas.clientHeight * ratio));
     this.pixels = { width, height };
+    this.loop.isUnfinished = false;
     return this.isServed() ? this.drawServed(width, height) : this.drawHere(width, height);
   }
 
@@ -257,8 +264,10 @@ export class Viewer {
     sized(this.canvas, width, height);
     this.servedCanvas.hidden = true;
     const coarse = this.loop.isCoarse();
-    const frame = this.frame(this.camera(width, height), this.hiddenNow(), coarse);
+    const frame = this.frame(this.camera(width, height), this.leftOutNow(), coarse);
     this.plan = frame.plan;
+    this.drawn = frame;
+    this.loop.isUnfinished = frame.plan.layers.length > 0;
     const levels = this.set?.levels ?? [];
     const { wanted, normals } = frame.plan;
     this.loader.want(this.wishes(frame.plan), normals);
@@ -272,6 +281,11 @@ export class Viewer {
     return !coarse || drawn.every((level) => !level.coarse || this.loader.meshOf(level.coarse, normals));
   }
 
+  /** A maximum at rest has the weights of its own layers. */
+  private finish(): void {
+    if (this.drawn && !this.gl.isContextLost()) this.renderer.finish(this.drawn, this.display(), null);
+  }
+
   /**
    * Sums and counts are shown up to their largest, found in a small picture of all shells: once of
    * their copies, where those come first, and once of the shells themselves.
@@ -283,7 +297,7 @@ export class Viewer {
     const { width, height } = this.canvas;
     const side = ownWindowSide / Math.max(width, height);
     const camera = this.camera(Math.round(width * side), Math.round(height * side));
-    const frame = this.frame(camera, this.state.hidden, false);
+    const frame = this.frame(camera, nothing, false);
     const isWhole = frame.plan.wanted.every((k) => this.loader.meshOf(this.set!.levels[k], false));
     if (!frame.plan.wanted.every((k) => frame.shells[k]) || (known && !isWhole)) return;
     const value = this.renderer.largest(frame);
