@@ -5,6 +5,7 @@
 #include <pthread.h>
 #include <sys/socket.h>
 
+#include <atomic>
 #include <charconv>
 #include <chrono>
 #include <csignal>
@@ -97,8 +98,23 @@ void answer_level(const ServedPage& served, LevelLocks& locks, const httplib::Re
   }
 }
 
-void answer_picture(const ServedPage& served, const httplib::Request& request,
-                    httplib::Response& response) {
+/// Pictures drawn or waiting for it at once: a page asks for one after the other. More would keep
+/// all else from being answered, and the server from ending.
+constexpr int kMostPictures = 3;
+
+void answer_picture(const ServedPage& served, std::atomic<int>& under_way,
+                    const httplib::Request& request, httplib::Response& response) {
+  struct Place {
+    std::atomic<int>& taken;
+    int number = ++taken;
+    ~Place() { --taken; }
+  } place{under_way};
+  if (place.number > kMostPictures) {
+    response.status = 503;
+    return response.set_content(
+        fmt::format("found {} pictures under way, expected to be asked later", kMostPictures),
+        "text/plain");
+  }
   try {
     set_content(response, served.picture({request.params.begin(), request.params.end()}),
                 "application/octet-stream");
@@ -108,13 +124,21 @@ void answer_picture(const ServedPage& served, const httplib::Request& request,
   }
 }
 
-void add_answers(httplib::Server& server, const ServedPage& served, LevelLocks& locks) {
+/// Whether a page of somebody else's asks for what it could not read, but would keep this machine
+/// busy with. That it leads to the page itself is its right.
+bool is_foreign(const httplib::Request& request) {
+  return request.path != "/" && request.get_header_value("Sec-Fetch-Site") == "cross-site";
+}
+
+void add_answers(httplib::Server& server, const ServedPage& served, LevelLocks& locks,
+                 std::atomic<int>& pictures) {
   using Request = httplib::Request;
   using Response = httplib::Response;
   server.set_default_headers(
       {{"Cache-Control", "no-store"}, {"X-Content-Type-Options", "nosniff"}});
   server.set_pre_routing_handler([](const Request& request, Response& response) {
-    if (is_for_loopback(request)) return httplib::Server::HandlerResponse::Unhandled;
+    if (is_for_loopback(request) && !is_foreign(request))
+      return httplib::Server::HandlerResponse::Unhandled;
     response.status = 403;
     return httplib::Server::HandlerResponse::Handled;
   });
@@ -124,8 +148,8 @@ void add_answers(httplib::Server& server, const ServedPage& served, LevelLocks& 
   server.Get("/set.glb",
              [&served](const Request&, Response& response) { set_content(response, served.set); });
   if (served.picture) {
-    server.Get("/picture", [&served](const Request& request, Response& response) {
-      answer_picture(served, request, response);
+    server.Get("/picture", [&](const Request& request, Response& response) {
+      answer_picture(served, pictures, request, response);
     });
   }
   if (!served.level) return;
@@ -146,7 +170,8 @@ void serve_page(const ServedPage& served, int port,
   hold_signals();
   httplib::Server server;
   LevelLocks locks;
-  add_answers(server, served, locks);
+  std::atomic<int> pictures = 0;
+  add_answers(server, served, locks, pictures);
   server.set_socket_options(set_socket_options);
   server.set_tcp_nodelay(true);  // a picture waits for no more to send
   server.set_keep_alive_timeout(kIdleSeconds);

@@ -61,6 +61,17 @@ void check_size(const glm::ivec2& size) {
                                                   size.x, size.y, kMostServedSide));
 }
 
+/// The display window, if the flags name one.
+std::optional<DisplayWindow> window_of(const PictureFlags& flags) {
+  const std::optional<DisplayWindow> window = window_known_before(flags);
+  if (window &&
+      !(std::isfinite(window->lo) && std::isfinite(window->hi) && window->lo < window->hi)) {
+    throw Error(ErrorCode::BadArgument,
+                fmt::format("--display: found {},{}, expected LO < HI", window->lo, window->hi));
+  }
+  return window;
+}
+
 /// To the nearest of 256 steps of the window.
 std::vector<std::byte> in_bytes(const Image& image, const DisplayWindow& window) {
   const auto lo = static_cast<float>(window.lo);
@@ -118,13 +129,13 @@ class ServedPictures::Drawing {
     const Flags flags = parse(request);
     CameraOptions asked = camera_options(flags.exact.camera);
     check_size(asked.size);
+    const std::optional<DisplayWindow> window = window_of(flags.exact.picture);
     const std::lock_guard lock(mutex_);
     if (!renderer_) open();
     const RenderOptions options = render_options(flags.exact, flags.draw, facts_.shells.size());
     const Camera camera = make_camera(asked, sphere_);
     const Plan plan = make_plan(facts_, camera, options, renderer_->capabilities());
     const Picture picture = renderer_->render(camera, plan);
-    const std::optional<DisplayWindow> window = window_known_before(flags.exact.picture);
     return pack_runs(in_bytes(
         picture.volume, window ? *window : default_display_window(picture.volume, options.mode)));
   }

@@ -40,7 +40,7 @@ class ServedPictures {
 /// browser takes longer to receive a picture than the processor to draw it.
 std::vector<std::byte> pack_runs(std::span<const std::byte> bytes);
 
-/// Pixels: more than any screen has, and no more memory than a machine spares.
+/// Pixels: more than any screen has. A picture of that size takes half a GB.
 inline constexpr int kMostServedSide = 8192;
 
 }  // namespace nacre

@@ -124,6 +124,9 @@ TEST_F(ServedPicturesOfABall, AreRefusedWhereFlagsAreWrong) {
   refused({{"azimuth", "much"}}, ErrorCode::BadArgument, "azimuth");
   refused({{"cue", "1,0"}}, ErrorCode::BadArgument, "--cue: found '1,0'");
   refused({{"hide", "8"}}, ErrorCode::BadArgument, "--hide: found shell 8, expected 1 to 7");
+  for (const char* window : {"1,0", "0.5,0.5", "nan,1", "0,inf"}) {
+    refused({{"display", window}}, ErrorCode::BadArgument, "--display: found ");
+  }
   refused({{"mode", "iso"}}, ErrorCode::Unsupported, "lit shells");
   EXPECT_FALSE(pictures.draw({{"size", "8x8"}}).empty());  // and still draws
 }

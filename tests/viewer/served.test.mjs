@@ -115,6 +115,13 @@ test("where the browser draws in software the server draws maxima, as the comman
   const layers = asked.map((url) => new URL(url).searchParams.get("layers"));
   assert.equal(layers.at(-1), "fine", layers.join());
 
+  // What it refuses is drawn by the page, and no more than that.
+  await page.route("**/picture?*azimuth=77*", (route) => route.fulfill({ status: 400, body: "no" }));
+  await page.evaluate(() => goTo("#azimuth=77"));
+  assert.equal(await servedPicture(page), null);
+  await page.evaluate(() => goTo("#azimuth=78&hide=99"));
+  assert.notEqual(await servedPicture(page), null);
+
   // Surfaces are lit, and tools drawn, by the page itself.
   await page.evaluate(() => goTo("#mode=iso"));
   assert.equal(await servedPicture(page), null);
@@ -134,10 +141,13 @@ test("a page whose server has gone draws by itself", async () => {
   const { server, address } = await serve("angiogram.glb");
   const page = await open(browser, address);
   assert.notEqual(await servedPicture(page), null);
+  const picture = await savePicture(page, "before.png", 256, 256);
   assert.equal(await end(server, "SIGINT"), 0);
-  await page.evaluate(() => goTo("#azimuth=40"));
+  assert.ok(await psnr(page, await savePicture(page, "after.png", 256, 256), picture) >= 30, "saved, with all its shells");
   assert.equal(await servedPicture(page), null);
-  nacre("render", "angiogram.glb", "--azimuth", "40", "--layers", "flat", "--size", "256x256", "-o", "nacre.png", "-q");
+  assert.match(await page.textContent("#command"), /--layers smooth/);
+  await page.evaluate(() => goTo("#azimuth=40"));
+  nacre("render", "angiogram.glb", "--azimuth", "40", "--layers", "smooth", "--size", "256x256", "-o", "nacre.png", "-q");
   assert.ok(await psnr(page, await savePicture(page, "page.png", 256, 256), inFolder("nacre.png")) >= 40);
   await page.close();
 });

@@ -58,6 +58,8 @@ export class Detail {
   /** Whether the last change gave detail back. */
   private isTrying = false;
   private patience = leastPatience;
+  /** Where pictures are drawn elsewhere, pixels are all that can be saved. */
+  onlyPixels = false;
   /** The triangles of a set drawn with its copies, of those without. */
   private copies = 1;
 
@@ -136,8 +138,8 @@ export class Detail {
   private lessDetail(milliseconds: number): void {
     const { amount } = this;
     const possible: Record<Step, boolean> = {
-      copies: this.copies <= worthCopies && !amount.isCoarse,
-      pixels: amount.scale > smallestScale, shells: amount.stride < largestStride,
+      copies: !this.onlyPixels && this.copies <= worthCopies && !amount.isCoarse,
+      pixels: amount.scale > smallestScale, shells: !this.onlyPixels && amount.stride < largestStride,
     };
     const step = (["copies", "pixels", "shells"] as const).find((s) => possible[s] && !this.useless.has(s));
     if (!step) return this.noStep(milliseconds);

@@ -129,7 +129,7 @@ export class FrameLoop {
     const drawn = this.draw();
     if (typeof drawn !== "boolean") {
       this.awaited = true;
-      void drawn.then((counts) => this.ended(counts));
+      void drawn.catch(() => false).then((counts) => this.ended(counts));
       return;
     }
     this.counts = drawn;
@@ -142,7 +142,7 @@ export class FrameLoop {
   private ended(counts: boolean): void {
     this.awaited = false;
     this.counts = counts;
-    this.account();
+    this.account(false); // at rest it has more to do than in motion
     this.measured();
     if (this.dirty) this.schedule();
   }
@@ -162,12 +162,13 @@ export class FrameLoop {
     if (this.dirty) this.schedule();
   }
 
-  private account(): void {
+  /** @param tells  whether the time of a picture at rest says something of moving ones */
+  private account(tells = true): void {
     const now = performance.now();
     this.milliseconds = now - this.started;
     this.ends = [...this.ends.filter((end) => end > now - 1000), now];
     this.rate = this.ends.length;
     if (this.isMoving() && this.counts) this.detail.account(this.milliseconds);
-    else if (!this.isMoving()) this.detail.accountAtRest(this.milliseconds);
+    else if (tells && !this.isMoving()) this.detail.accountAtRest(this.milliseconds);
   }
 }

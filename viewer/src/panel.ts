@@ -33,7 +33,7 @@ export class Panel {
     this.bindSaving();
     viewer.listen((what) => {
       if (what === "set") this.showSet();
-      if (what === "set" || what === "state") this.show();
+      if (what === "set" || what === "state" || what === "tools") this.show();
       if (what === "tools") byId("over-row").hidden = viewer.shelf.tools.length === 0;
     });
   }

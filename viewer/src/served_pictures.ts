@@ -37,27 +37,46 @@ export function unpackRuns(packed: Uint8Array, palette: Uint32Array, colors: Uin
   if (to !== colors.length) throw new Error(`found ${to} pixels, expected ${colors.length}`);
 }
 
+/** A picture longer under way than this will not come, ms. */
+const patience = 30_000;
+
+/** The server is there, but does not draw what was asked for. */
+export class Refused extends Error {}
+
 export class ServedPictures {
+  private underWay: AbortController | null = null;
+
   /** @param address  of the server's pictures */
   constructor(private readonly address: string) {}
+
+  /** Ends what is under way: nobody waits for it any more. */
+  stop(): void { this.underWay?.abort(new Refused("not wanted any more")); }
 
   /** Whether the server draws what the state asks for, tools aside. */
   draws(state: State): boolean { return state.mode === "max"; }
 
   /**
    * The state's picture, window and colour map included.
-   * @param soon  smooth layers in place of fine ones
+   * @param soon      smooth layers in place of fine ones
+   * @throws Refused  if the server does not draw it, or it is stopped; other errors if it is gone
    */
   async picture(
     state: State, width: number, height: number, soon: boolean,
   ): Promise<ImageData> {
     const flags = flagsOf(state).filter(([name]) => !shownHere.includes(name));
     const all = new URLSearchParams([...flags, ["size", `${width}x${height}`], ["layers", soon ? "smooth" : "fine"]]);
-    const answer = await fetch(`${this.address}?${all}`);
-    if (!answer.ok) throw new Error(await answer.text());
-    const picture = new ImageData(width, height);
-    unpackRuns(new Uint8Array(await answer.arrayBuffer()), paletteOf(state.colorMap),
-      new Uint32Array(picture.data.buffer));
-    return picture;
+    const palette = paletteOf(state.colorMap);
+    const stopped = new AbortController();
+    this.underWay = stopped;
+    const timer = setTimeout(() => stopped.abort(), patience);
+    try {
+      const answer = await fetch(`${this.address}?${all}`, { signal: stopped.signal });
+      if (!answer.ok) throw new Refused(await answer.text());
+      const picture = new ImageData(width, height);
+      unpackRuns(new Uint8Array(await answer.arrayBuffer()), palette, new Uint32Array(picture.data.buffer));
+      return picture;
+    } finally {
+      clearTimeout(timer);
+    }
   }
 }

@@ -6,10 +6,10 @@ import { makePlan, type Mode, type Plan, type PictureOptions, type Scene } from 
 import type { Interval } from "./projection";
 import type { GpuMesh } from "./meshes";
 import { Renderer, type Display, type FloatTargets, type Frame } from "./renderer";
-import type { ServedPictures } from "./served_pictures";
+import { drawsInSoftware, Refused, type ServedPictures } from "./served_pictures";
 import { encoded, ownWindowSide, pngOf } from "./picture_file";
 import { trianglesOf, type Level, type ShellSet, type Surface } from "./shell_set";
-import { firstState, lawfulCue, type State } from "./state";
+import { firstState, hashOf, lawfulCue, type State } from "./state";
 import { ToolShelf } from "./tools";
 
 /** Triangles to decode from which on coarse copies come first: they take a part of a second. */
@@ -40,6 +40,9 @@ export class Viewer {
   picture = { isComplete: false, isWhole: false };
   /** Where the server draws pictures of this set that the browser would draw in software. */
   served: ServedPictures | null = null;
+  /** A state that it does not draw. */
+  private refused: string | null = null;
+  private readonly isSoftware: boolean;
   /** Of the last picture. */
   pixels = { width: 0, height: 0 };
   private renderer: Renderer;
@@ -58,6 +61,7 @@ export class Viewer {
     const gl = canvas.getContext("webgl2", { antialias: false, depth: false, alpha: false });
     if (!gl) throw new Error("no WebGL2");
     this.gl = gl;
+    this.isSoftware = drawsInSoftware(gl);
     this.renderer = new Renderer(gl, floats);
     this.shelf = new ToolShelf(gl, () => this.set?.sphere.center ?? [0, 0, 0]);
     this.loader = new ShellLoader(gl, decoderSource, () => this.loaded());
@@ -78,7 +82,7 @@ export class Viewer {
 
   /** Shows another set; the state stays as far as it makes sense. */
   open(set: ShellSet): void {
-    this.served = null;
+    this.drawAllHere();
     for (const level of this.set?.levels ?? []) this.forget(level);
     this.loader.problem = "";
     this.largest.clear();
@@ -94,6 +98,11 @@ export class Viewer {
   change(to: Partial<State>, moving = false): void {
     Object.assign(this.state, to);
     this.state.cue = lawfulCue(this.state.cue);
+    const shells = this.set?.levels.length ?? Infinity;
+    if ([...this.state.hidden].some((k) => k >= shells)) {
+      this.state.hidden = new Set([...this.state.hidden].filter((k) => k < shells));
+    }
+    if (!this.isServed()) this.served?.stop();
     this.tell("state");
     if (moving) this.loop.invalidateMoving();
     else this.loop.invalidate();
@@ -104,6 +113,7 @@ export class Viewer {
   }
 
   toolsChanged(moving = false): void {
+    if (!this.isServed()) this.served?.stop();
     this.tell("tools");
     if (moving) this.loop.invalidateMoving();
     else this.loop.invalidate();
@@ -111,7 +121,7 @@ export class Viewer {
 
   /** A list of levels that has changed: one added, gone, or another in the place of an old one. */
   levelsChanged(old: Level | null, made: Level | null): void {
-    this.served = null; // the server has the levels it began with
+    this.drawAllHere(); // the server has the levels it began with
     if (old && made) this.loader.replace(old, made);
     else if (old) this.forget(old);
     this.largest.clear();
@@ -135,8 +145,10 @@ export class Viewer {
 
   /** This view as a PNG, drawn anew at that size. */
   async save(width: number, height: number): Promise<Blob> {
+    const wasServed = this.isServed();
     const served = await this.servedPicture(width, height, false);
     if (served) return encoded(served);
+    if (wasServed) await this.drawnHere();
     const frame = this.frame(this.camera(width, height), nothing, false);
     const blob = await pngOf(this.gl, width, height, (target) => {
       this.renderer.draw(frame, this.display(), target);
@@ -144,6 +156,25 @@ export class Viewer {
     });
     this.loop.invalidate();
     return blob;
+  }
+
+  /** From now on nothing is asked for. */
+  private drawAllHere(): void {
+    this.served?.stop();
+    this.served = null;
+  }
+
+  /** Waits until a view that the server has drawn so far is drawn here, with all its shells. */
+  private drawnHere(): Promise<void> {
+    this.picture = { isComplete: false, isWhole: false };
+    this.loop.invalidate();
+    return new Promise((resolve) => {
+      const stop = this.listen(() => {
+        if (this.isServed() || !this.loop.isSettled() || !this.picture.isWhole) return;
+        stop();
+        resolve();
+      });
+    });
   }
 
   private forget(level: Level): void {
@@ -217,26 +248,33 @@ export class Viewer {
   /** Whether the server draws what is shown. */
   isServed(): boolean {
     return this.served !== null && this.set !== null && this.served.draws(this.state) &&
-      this.shelf.scene().bounds.length === 0;
+      this.shelf.scene().bounds.length === 0 &&
+      (this.refused === null || this.refused !== hashOf(this.state));
   }
 
-  /** The server's picture; none where it draws none, or no longer does. */
+  /** The server's picture; none where it draws none, or is gone: that is drawn here then. */
   private async servedPicture(width: number, height: number, soon: boolean): Promise<ImageData | null> {
     const { served } = this;
     if (!served || !this.isServed()) return null;
+    const asked = hashOf(this.state);
     try {
       return await served.picture(this.state, width, height, soon);
-    } catch {
-      this.served = null; // gone, or it does not draw this: from now on all is drawn here
+    } catch (error) {
+      if (error instanceof Refused) this.refused = asked;
+      else if (this.served === served) this.served = null;
+      this.tell("state"); // what draws it is another now, and so is the command
       return null;
     }
   }
 
   private async drawServed(width: number, height: number): Promise<boolean> {
+    this.loader.want([], false);
+    this.plan = this.drawn = null;
     const soon = this.loop.isMoving();
     if (soon) this.loop.drawnWithLess();
+    const { served } = this;
     const picture = await this.servedPicture(width, height, soon);
-    if (!picture) {
+    if (!picture || this.served !== served || !this.isServed()) {
       this.loop.invalidate();
       return false;
     }
@@ -255,16 +293,21 @@ export class Viewer {
     const height = Math.max(1, Math.round(canvas.clientHeight * ratio));
     this.pixels = { width, height };
     this.loop.isUnfinished = false;
+    this.loop.detail.onlyPixels = this.isServed();
     return this.isServed() ? this.drawServed(width, height) : this.drawHere(width, height);
   }
 
   /** Whether the picture has what is to be judged by its time: a moving one its copies. */
   private drawHere(width: number, height: number): boolean {
+    this.servedCanvas.hidden = true;
     if (this.gl.isContextLost()) return false;
     sized(this.canvas, width, height);
-    this.servedCanvas.hidden = true;
     const coarse = this.loop.isCoarse();
     const frame = this.frame(this.camera(width, height), this.leftOutNow(), coarse);
+    if (this.isSoftware && this.loop.isMoving() && frame.plan.layers.length > 0) {
+      frame.plan.layers = []; // flat: the estimate takes as long as half of the shells there
+      this.loop.drawnWithLess();
+    }
     this.plan = frame.plan;
     this.drawn = frame;
     this.loop.isUnfinished = frame.plan.layers.length > 0;
@@ -308,6 +351,7 @@ export class Viewer {
   forgetOwnWindow(): void { this.largest.delete(this.state.mode); }
 
   private loaded(): void {
+    if (this.isServed()) return this.tell("loading");
     const { wanted, loaded } = this.loader.state();
     const levels = this.plan?.wanted.map((k) => this.set!.levels[k]) ?? [];
     const isComplete = levels.every((level) => this.meshOf(level, this.plan!.normals, false));
