@@ -8,6 +8,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <fstream>
@@ -189,6 +190,42 @@ TEST_F(PageServer, DrawsPicturesAsTheyAreAskedFor) {
   EXPECT_EQ(refused.status, 400);
   EXPECT_EQ(refused.body, "picture: found no flags");
   EXPECT_EQ(ask("GET /picture?azimuth=1", "elsewhere.example").status, 403);
+}
+
+TEST_F(PageServer, AnswersNoPageOfSomebodyElses) {
+  start();
+  const auto status = [&](const std::string& path, const std::string& site) {
+    const Connection connection(port_);
+    connection.send_text("GET " + path + " HTTP/1.1\r\nHost: 127.0.0.1\r\nSec-Fetch-Site: " + site +
+                         "\r\nContent-Length: 0\r\nConnection: close\r\n\r\n");
+    return connection.receive().status;
+  };
+  EXPECT_EQ(status("/set.glb", "cross-site"), 403);
+  EXPECT_EQ(status("/set.glb", "same-origin"), 200);
+  EXPECT_EQ(status("/", "cross-site"), 200);  // a link leads to it
+}
+
+TEST_F(PageServer, RefusesPicturesThatWouldQueue) {
+  std::promise<void> go;
+  const std::shared_future<void> told = go.get_future().share();
+  std::atomic<int> drawn = 0;
+  served_.picture = [&](const PictureRequest&) {
+    ++drawn;
+    told.wait();
+    return std::vector<std::byte>{std::byte{'p'}};
+  };
+  start();
+  std::vector<std::future<Answer>> first;
+  for (int i = 0; i < 3; ++i) {
+    first.push_back(std::async(std::launch::async, [&] { return ask("GET /picture"); }));
+  }
+  while (drawn < 3) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  const Answer refused = ask("GET /picture");
+  EXPECT_EQ(refused.status, 503);
+  EXPECT_EQ(refused.body, "found 3 pictures under way, expected to be asked later");
+  go.set_value();
+  for (std::future<Answer>& answer : first) EXPECT_EQ(answer.get().body, "p");
+  EXPECT_EQ(ask("GET /picture").status, 200);
 }
 
 TEST_F(PageServer, DrawsNoPicturesUnlessItCan) {

@@ -121,6 +121,7 @@ test("where the browser draws in software the server draws maxima, as the comman
   assert.equal(await servedPicture(page), null);
   await page.evaluate(() => goTo("#azimuth=78&hide=99"));
   assert.notEqual(await servedPicture(page), null);
+  assert.match(page.problems.splice(0).join("|"), /^[^|]*status of 400[^|]*$/, "which the browser notes");
 
   // Surfaces are lit, and tools drawn, by the page itself.
   await page.evaluate(() => goTo("#mode=iso"));
