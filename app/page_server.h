@@ -30,8 +30,8 @@ struct ServedPage {
   std::vector<std::byte> set;
   /// Empty where there is no volume. A draft may be asked for while another shell is being made.
   std::function<ServedLevel(const LevelRequest& request)> level = {};
-  /// A picture, as the page takes it; may throw an `Error`, which is what the page is told. Empty where
-  /// none are drawn. May be called from several threads at once.
+  /// A picture, as the page takes it; may throw an `Error`, which is what the page is told. Empty
+  /// where none are drawn. May be called from several threads at once.
   std::function<std::vector<std::byte>(const PictureRequest& request)> picture = {};
 };
 
