@@ -15,6 +15,8 @@ export class FrameLoop {
   rate = 0;
   /** Of pictures that move. */
   readonly detail = new Detail();
+  /** Whether the time of a picture at rest says something of moving ones: not if it shows more. */
+  restTells = true;
   private dirty = false;
   private scheduled = false;
   private fence: WebGLSync | null = null;
@@ -142,7 +144,7 @@ export class FrameLoop {
   private ended(counts: boolean): void {
     this.awaited = false;
     this.counts = counts;
-    this.account(false); // at rest it has more to do than in motion
+    this.account();
     this.measured();
     if (this.dirty) this.schedule();
   }
@@ -162,13 +164,12 @@ export class FrameLoop {
     if (this.dirty) this.schedule();
   }
 
-  /** @param tells  whether the time of a picture at rest says something of moving ones */
-  private account(tells = true): void {
+  private account(): void {
     const now = performance.now();
     this.milliseconds = now - this.started;
     this.ends = [...this.ends.filter((end) => end > now - 1000), now];
     this.rate = this.ends.length;
     if (this.isMoving() && this.counts) this.detail.account(this.milliseconds);
-    else if (tells && !this.isMoving()) this.detail.accountAtRest(this.milliseconds);
+    else if (this.restTells && !this.isMoving()) this.detail.accountAtRest(this.milliseconds);
   }
 }

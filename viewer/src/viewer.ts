@@ -270,6 +270,7 @@ export class Viewer {
   private async drawServed(width: number, height: number): Promise<boolean> {
     this.loader.want([], false);
     this.plan = this.drawn = null;
+    this.loop.restTells = false; // fine layers at rest, and at first the set is decoded
     const soon = this.loop.isMoving();
     if (soon) this.loop.drawnWithLess();
     const { served } = this;
@@ -308,6 +309,7 @@ export class Viewer {
       frame.plan.layers = []; // flat: the estimate takes as long as half of the shells there
       this.loop.drawnWithLess();
     }
+    this.loop.restTells = !this.isSoftware || frame.plan.layers.length === 0;
     this.plan = frame.plan;
     this.drawn = frame;
     this.loop.isUnfinished = frame.plan.layers.length > 0;
