@@ -18,22 +18,6 @@ if(NACRE_SANITIZE)
     -fsanitize=${NACRE_SANITIZE} -Wl,--disable-new-dtags)
 endif()
 
-# What the libraries' sources include of others, read once for all of them; Nacre's own headers are not
-# among it, so that a change of one compiles what includes it and no more.
-if(NACRE_PRECOMPILE_HEADERS)
-  find_package(fmt REQUIRED)
-  find_package(glm REQUIRED)
-  find_package(TBB REQUIRED)
-  file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/precompiled.cpp CONTENT "// Nothing but headers.\n")
-  add_library(nacre_precompiled OBJECT ${PROJECT_BINARY_DIR}/precompiled.cpp)
-  target_link_libraries(nacre_precompiled PRIVATE fmt::fmt glm::glm TBB::tbb nacre_defaults)
-  target_precompile_headers(nacre_precompiled PRIVATE
-    <algorithm> <array> <atomic> <bit> <cmath> <cstddef> <cstdint> <cstring> <filesystem> <functional> <limits>
-    <memory> <numeric> <optional> <span> <string> <string_view> <utility> <vector>
-    <fmt/core.h> <glm/common.hpp> <glm/geometric.hpp> <glm/mat4x4.hpp> <glm/matrix.hpp> <glm/vec2.hpp>
-    <glm/vec3.hpp> <glm/vec4.hpp> <tbb/blocked_range.h> <tbb/parallel_for.h>)
-endif()
-
 # nacre_library(<name> SOURCES ... HEADERS ... [LINK ...] [LINK_PRIVATE ...])
 #
 # One module target: nacre::<name>, headers included as "<folder>/<file>.h" from the root.
@@ -48,9 +32,6 @@ function(nacre_library name)
   target_link_libraries(nacre_${name}
     PUBLIC ${arg_LINK}
     PRIVATE ${arg_LINK_PRIVATE} $<BUILD_INTERFACE:nacre_defaults>)
-  if(NACRE_PRECOMPILE_HEADERS)
-    target_precompile_headers(nacre_${name} REUSE_FROM nacre_precompiled)
-  endif()
   install(TARGETS nacre_${name} EXPORT nacre_targets
     FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/nacre)
 endfunction()

@@ -11,8 +11,6 @@ if(NACRE_BUILD_AUTHORING)
   target_sources(nacre_io_tools PRIVATE openmesh_reader.cpp plain_obj.cpp plain_off.cpp
     plain_ply.cpp plain_stl.cpp ply_header.cpp tool_reader.cpp)
   target_link_libraries(nacre_io_tools PRIVATE OpenMeshCore)
-  # Of strings in precompiled headers GCC 12 says here, wrongly, that they are read beyond their ends.
-  set_source_files_properties(plain_obj.cpp PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
 else()
   target_sources(nacre_io_tools PRIVATE without_openmesh.cpp)
 endif()

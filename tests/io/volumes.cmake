@@ -13,7 +13,6 @@ if(NACRE_WITH_ITK)
 endif()
 nacre_test(io_volumes
   SOURCES ${volume_tests}
-  APART nrrd_volume_test.cpp real_volumes_test.cpp
   LINK nacre::io_volumes ZLIB::ZLIB)
 target_compile_definitions(io_volumes_tests PRIVATE $<$<BOOL:${NACRE_WITH_ITK}>:NACRE_WITH_ITK>)
 target_link_libraries(io_files_tests PRIVATE ZLIB::ZLIB)
