@@ -64,6 +64,12 @@ void set_content(httplib::Response& response, const std::vector<std::byte>& byte
   response.set_content(reinterpret_cast<const char*>(bytes.data()), bytes.size(), type);
 }
 
+/// Answers with a line of text in place of what was asked for.
+void refuse(httplib::Response& response, int status, const std::string& why) {
+  response.status = status;
+  response.set_content(why, "text/plain");
+}
+
 /// A level's emission as the request gives it; 0 if it is none.
 double emission_of(const httplib::Request& request) {
   const std::string text = request.get_param_value("emission");
@@ -83,9 +89,7 @@ void answer_level(const ServedPage& served, LevelLocks& locks, const httplib::Re
                   httplib::Response& response) {
   const LevelRequest level{emission_of(request), request.has_param("draft")};
   if (level.emission == 0.0) {
-    response.status = 400;
-    return response.set_content("found no emission, expected one above 0 and up to 1",
-                                "text/plain");
+    return refuse(response, 400, "found no emission, expected one above 0 and up to 1");
   }
   const std::lock_guard lock(level.draft ? locks.draft : locks.whole);
   try {
@@ -93,8 +97,7 @@ void answer_level(const ServedPage& served, LevelLocks& locks, const httplib::Re
     set_content(response, made.set);
     if (made.is_draft) response.set_header("Nacre-Draft", "yes");
   } catch (const std::exception& error) {
-    response.status = 500;
-    response.set_content(error.what(), "text/plain");
+    refuse(response, 500, error.what());
   }
 }
 
@@ -110,17 +113,15 @@ void answer_picture(const ServedPage& served, std::atomic<int>& under_way,
     ~Place() { --taken; }
   } place{under_way};
   if (place.number > kMostPictures) {
-    response.status = 503;
-    return response.set_content(
-        fmt::format("found {} pictures under way, expected to be asked later", kMostPictures),
-        "text/plain");
+    return refuse(
+        response, 503,
+        fmt::format("found {} pictures under way, expected to be asked later", kMostPictures));
   }
   try {
     set_content(response, served.picture({request.params.begin(), request.params.end()}),
                 "application/octet-stream");
   } catch (const std::exception& error) {
-    response.status = 400;
-    response.set_content(error.what(), "text/plain");
+    refuse(response, 400, error.what());
   }
 }
 

@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <mutex>
-#include <numeric>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -127,7 +126,7 @@ class ServedPictures::Drawing {
 
   std::vector<std::byte> draw(const PictureRequest& request) {
     const Flags flags = parse(request);
-    CameraOptions asked = camera_options(flags.exact.camera);
+    const CameraOptions asked = camera_options(flags.exact.camera);
     check_size(asked.size);
     const std::optional<DisplayWindow> window = window_of(flags.exact.picture);
     const std::lock_guard lock(mutex_);
@@ -145,10 +144,8 @@ class ServedPictures::Drawing {
     const ShellSet set = decode_shell_set(file_, "the set");
     facts_ = scene_facts(set);
     sphere_ = bounding_sphere(set.volume.dims, set.volume.world_from_voxel);
-    std::vector<std::uint32_t> all(set.shells.size());
-    std::iota(all.begin(), all.end(), 0U);
     CpuRenderer renderer;
-    static_cast<ShellRenderer&>(renderer).upload(set, facts_, all, {});
+    renderer.upload(set);
     renderer_.emplace(std::move(renderer));
   }
 

@@ -9,7 +9,7 @@ import { Overlay } from "./overlay";
 import { Panel } from "./panel";
 import { PoseHandles } from "./pose_handles";
 import type { FloatTargets } from "./renderer";
-import { drawsInSoftware, ServedPictures } from "./served_pictures";
+import { ServedPictures } from "./served_pictures";
 import { hashOf, stateOf } from "./state";
 import { Viewer } from "./viewer";
 
@@ -147,7 +147,7 @@ const asked = new URLSearchParams(location.search);
 function asksForPictures(viewer: Viewer): boolean {
   if (!isLive && !setText.startsWith("fetch:")) return false;
   const given = asked.get("pictures");
-  return given === "server" || (given !== "page" && drawsInSoftware(viewer.gl));
+  return given === "server" || (given !== "page" && viewer.isSoftware);
 }
 
 /** Which float targets to use at most, for trying what lesser devices show: ?floats=half. */

@@ -42,12 +42,13 @@ export class Viewer {
   served: ServedPictures | null = null;
   /** A state that it does not draw. */
   private refused: string | null = null;
-  private readonly isSoftware: boolean;
+  /** Whether WebGL is drawn by the processor. */
+  readonly isSoftware: boolean;
   /** Of the last picture. */
   pixels = { width: 0, height: 0 };
   private renderer: Renderer;
   private drawn: Frame | null = null;
-  readonly gl: WebGL2RenderingContext;
+  private readonly gl: WebGL2RenderingContext;
   private listeners: Listener[] = [];
   /** The largest sum and count of the whole set, once known. */
   private readonly largest = new Map<Mode, { value: number; isWhole: boolean }>();
